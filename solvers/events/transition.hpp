@@ -89,6 +89,7 @@ class FreeAccelerations {
 // The choice for contacts at rest.
 struct Choice {
   ContactMask stuck = 0, forward = 0;
+  ContactMask at_limit = 0;  // of several, that stick with a force at its limit
 };
 
 // A single contact: it sticks if the force needed for this, c/G, is within the limit.
@@ -153,13 +154,25 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
     const double rounding = kRounding * G.row(i).cwiseAbs().dot(force.cwiseAbs()) / size;
     const double room = (eq.static_limit[j] - std::abs(force[i])) / weight[i];
     const bool has_let_go = least[i] == most[i];
-    if (limit > 0.0 && !contains(w.held, j)) w.note_margin(std::max(pull, room));
-    if (pull <= std::max(kTie, rounding) && limit > 0.0 && !has_let_go)
+    const bool sticks = pull <= std::max(kTie, rounding) && limit > 0.0 && !has_let_go;
+    if (sticks && room <= kTie && !contains(w.held, j))
+      choice.at_limit |= bit(j);
+    else if (limit > 0.0 && !contains(w.held, j))
+      w.note_margin(std::max(pull, room));
+    if (sticks)
       choice.stuck |= bit(j);
     else if (limit > 0.0 ? force[i] > 0.0 : acceleration[i] > 0.0)
       choice.forward |= bit(j);
   }
   return choice;
+}
+
+// Contacts that stick with forces at their limits are about to slide, unless the others hold them too.
+template <int N, int H>
+void note_limits(Flow<N, H>& flow, const Choice& choice, Workspace<N, H>& w) {
+  const ContactMask inside = choice.stuck & ~choice.at_limit;
+  const std::size_t without = flow.mode_index(inside, 0, flow.mode(w.mode).beyond);
+  if ((choice.at_limit & ~flow.configuration(flow.mode(without)).idle) != 0) w.note_margin(0.0);
 }
 
 // The mode in which all contacts at rest whose velocity is held are chosen together.
@@ -183,6 +196,7 @@ void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
   const ContactMask states = before.stuck & ~eq.holding;  // internal forces, which no choice concerns
   w.mode =
       flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward, before.beyond);
+  if (choice.at_limit != 0) note_limits(flow, choice, w);
 }
 
 // A stuck contact lets go. A held contact starts from rest, without relative acceleration unless its force
