@@ -18,7 +18,8 @@ void find_sliding(const RestProblem& rest, const VectorXd& needed, const VectorX
   const VectorXd pull = rest.G * (needed - lambda);
   const VectorXd size = rest.G.cwiseAbs() * (needed.cwiseAbs() + lambda.cwiseAbs());
   for (Index i = 0; i < pull.size(); ++i) {
-    if (std::abs(pull[i]) <= kRounding * size[i] + kOfOthers * size.maxCoeff()) continue;
+    const double tie = kTie * rest.G(i, i) * rest.weight[i];  // to sticking
+    if (std::abs(pull[i]) <= kRounding * size[i] + kOfOthers * size.maxCoeff() + tie) continue;
     if ((rest.at(i) & among) == 0) continue;
     outcome.slides |= rest.at(i);
     if (pull[i] > 0.0) outcome.forward |= rest.at(i);

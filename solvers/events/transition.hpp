@@ -242,9 +242,10 @@ void settle_mode(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
   flow.accelerate(flow.mode(w.mode), w.left);
   if (flow.equations().has_loops) {
     const ContactMask slid = hold_together(flow, letting_go, w);
-    if (const ContactMask stays = letting_go & ~slid & flow.mode(w.mode).stuck; stays != 0) {
-      const double force = flow.stuck_force(w.left, flow.mode(w.mode), first(stays)).value;
-      release(flow, first(stays), force > 0.0, w);
+    const bool stays = slid == 0 && (letting_go & flow.mode(w.mode).stuck) != 0;
+    if (stays) {  // its force only just grows
+      const Eigen::Index j = first(letting_go);
+      release(flow, j, flow.stuck_force(w.left, flow.mode(w.mode), j).value > 0.0, w);
     }
     if (letting_go != 0) slide_on(flow, w);
   } else {

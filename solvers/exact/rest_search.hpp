@@ -225,9 +225,14 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   const typename Sizes<N, H>::State by = rest.E * found.delta;
   shift_orbit<N, H>(by, orbit);
   // Where contacts rest in loops they share its forces, up to other instants than before. So the motion is
-  // followed once more from the shifted state; also where a force was at its limit before the shift.
-  const bool stood_at_limit = orbit.status == Status::grazing && found.verdict == RestShift::Verdict::inside;
-  if (stood_at_limit || (!by.isZero(0.0) && rests_in_loops(orbit))) {
+  // followed once more from the shifted state; also where a force was at its limit before the shift. With a
+  // force at its limit now a contact may slip by rounding: then only if the shares told break a limit.
+  const bool is_inside = found.verdict == RestShift::Verdict::inside;
+  const bool stood_at_limit = orbit.status == Status::grazing && is_inside;
+  const bool shares_anew = !by.isZero(0.0) && rests_in_loops(orbit) &&
+                           (is_inside || std::ranges::any_of(stuck_forces(flow_.equations().holding, orbit),
+                                                             &StuckForce::breaks_limit));
+  if (stood_at_limit || shares_anew) {
     shooting_.find(orbit);
     if (!orbit.is_found()) return Shift::none;
   }
