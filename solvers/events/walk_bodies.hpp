@@ -106,7 +106,7 @@ template <int N, int H>
 void Walk<N, H>::open_segment(Passage<N, H>& passage) {
   if (steps_ != nullptr) steps_->end_segment();
   passage.segments.push_back({w_.clock, 0.0, w_.mode, w_.left.z});
-  if (flow_.equations().has_loops) list_shares(flow_, w_);
+  if (flow_.configuration(flow_.mode(w_.mode)).idle != 0) list_shares(flow_, w_);
 }
 
 template <int N, int H>
