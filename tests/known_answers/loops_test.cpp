@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/known_answers/responses.hpp"
 
@@ -55,6 +56,24 @@ TEST_CASE("Contacts in a loop share a force by the least sum, and within their l
         CHECK(responses[std::string(contact) + "_stops"] == 0.0);
       }
     }
+  }
+}
+
+TEST_CASE("The peak of a share has the derivative of its closed form") {
+  Responses responses(clamp());
+  responses.solve(values(2.2, 0.4));
+  const auto quantities = all_quantities(clamp());
+  NetworkValues by_force{
+      .mass = {0.0, 0.0}, .element = std::vector<double>(6, 0.0), .excitation = {{1.0, 0.0}}};
+  NetworkValues by_limit = by_force;
+  by_limit.excitation[0].amplitude = 0.0;
+  by_limit.element[3] = 1.0;
+  std::vector<double> out(2 * quantities.size());
+  REQUIRE(responses.response().gradient(std::vector{by_force, by_limit}, out) == "");
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i] != *find_quantity("joint_force_peak", clamp())) continue;
+    CHECK_THAT(out[i], WithinAbs(1.0, kRounding));
+    CHECK_THAT(out[quantities.size() + i], WithinAbs(-1.0, kRounding));
   }
 }
 
