@@ -1,36 +1,39 @@
 #pragma once
 
+#include <vector>
+
 #include "solvers/events/passage.hpp"
+#include "solvers/events/rest_problem.hpp"
 #include "solvers/events/workspace.hpp"
 
-// Contacts in loops: where stuck contacts alone hold a further contact at rest, a convention fixes its force:
-// the forces are those of least sum (lambda_j / F_j)^2, as long as each is within its limit. A contact whose
-// force would exceed its limit carries the limit, as if it slid, while the others hold it: it is idle
-// (Configuration::idle). So no force ever exceeds its limit, and motion begins only when no distribution of
-// the forces can hold the contacts.
+// Contacts in loops: where stuck contacts alone hold a further contact at rest, motion says nothing of its
+// force. By convention the forces are those of least sum (lambda_j / F_j)^2 within the limits. A contact that
+// its limit keeps from its share carries the limit, as if it slid, while the others hold it: it is idle
+// (Configuration::idle). It shares again at the instant at which its share is within its limit. So forces
+// depend on the state alone, not on what came before; no force exceeds its limit, and motion begins only
+// where no distribution of the forces can hold the contacts.
 namespace frahm::periodic {
 
-// Idle contacts share the forces again as soon as all forces would then be within their limits.
+// The contacts at rest whose velocity is held: those that stick, and those that they hold.
 template <int N, int H>
-bool share_again(Flow<N, H>& flow, Workspace<N, H>& w) {
-  constexpr double kWithin = 1.0 - 1e-9;  // so that a contact does not switch back and forth
-  const ContactMask idle = flow.configuration(flow.mode(w.mode)).idle & flow.equations().holding;
-  for (Eigen::Index j = 0; idle != 0 && j < flow.equations().contacts(); ++j) {
-    if (!contains(idle, j)) continue;
-    const ContactMask stuck = flow.mode(w.mode).stuck | bit(j);
-    const std::size_t sharing = flow.mode_index(stuck, flow.mode(w.mode).positive, flow.mode(w.mode).beyond);
-    bool within = true;
-    for (Eigen::Index i = 0; i < flow.equations().contacts(); ++i) {
-      if (!contains(stuck & flow.equations().holding & ~w.held, i)) continue;
-      const double force = flow.stuck_force(w.left, flow.mode(sharing), i).value;
-      within = within && std::abs(force) < kWithin * flow.equations().static_limit[i];
-    }
-    if (!within) continue;
-    w.mode = sharing;
-    flow.accelerate(flow.mode(w.mode), w.left);
-    return true;
+ContactMask at_rest(const Flow<N, H>& flow, const Workspace<N, H>& w) {
+  ContactMask result = 0;
+  for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
+    if (flow.equations().holds(j) && flow.rests(flow.mode(w.mode), j)) result |= bit(j);
   }
-  return false;
+  return result;
+}
+
+// The modes in which each idle contact alone shares the forces again: its share is its stuck force there.
+template <int N, int H>
+void list_shares(Flow<N, H>& flow, Workspace<N, H>& w) {
+  const ContactMask idle = at_rest(flow, w) & ~flow.mode(w.mode).stuck;
+  w.sharing.resize(static_cast<std::size_t>(flow.equations().contacts()));
+  for (Eigen::Index j = 0; idle != 0 && j < flow.equations().contacts(); ++j) {
+    const Mode<N, H>& mode = flow.mode(w.mode);
+    if (!contains(idle, j)) continue;
+    w.sharing[static_cast<std::size_t>(j)] = flow.mode_index(mode.stuck | bit(j), mode.positive, mode.beyond);
+  }
 }
 
 // Contact j starts from rest at w.left: the first nonzero coefficient of its sliding speed, by its power of
@@ -60,19 +63,94 @@ void start_sliding(Eigen::Index j, FirstMotion first, Workspace<N, H>& w) {
   if (first.power > 1) w.just_released |= bit(j);
 }
 
-// Contacts that were idle before a release and can move after it. A contact that would move against its own
-// friction sticks.
+// The contacts at rest at w.left, which all stick in w.mode.
 template <int N, int H>
-void wake(Flow<N, H>& flow, ContactMask idle_before, Workspace<N, H>& w) {
-  const ContactMask woken = idle_before & ~flow.configuration(flow.mode(w.mode)).idle;
-  for (Eigen::Index j = 0; woken != 0 && j < flow.equations().contacts(); ++j) {
+RestProblem rest_problem(const Flow<N, H>& flow, ContactMask contacts, const Workspace<N, H>& w) {
+  constexpr double kWithoutBound = 1e9;
+  const StepEquations<N, H>& eq = flow.equations();
+  RestProblem rest;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(contacts, j)) rest.contacts.push_back(j);
+  }
+  const auto m = static_cast<Eigen::Index>(rest.contacts.size());
+  rest.W = eq.W(Eigen::all, rest.contacts);
+  rest.G = eq.mobility(rest.contacts, rest.contacts);
+  rest.weight = eq.limit(rest.contacts);
+  rest.bound = eq.static_limit(rest.contacts);
+  rest.force.resize(m);
+  rest.rate.resize(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Index j = rest.contacts[static_cast<std::size_t>(i)];
+    if (contains(w.held, j)) rest.bound[i] = kWithoutBound * rest.weight[i];
+    const ValueAndSlope force = flow.stuck_force(w.left, flow.mode(w.mode), j);
+    rest.force[i] = force.value;
+    rest.rate[i] = force.slope;
+  }
+  return rest;
+}
+
+// These contacts at rest, which all stick in w.mode, share the forces; those at their bounds are idle.
+template <int N, int H>
+void share(Flow<N, H>& flow, const RestProblem& rest, const LeastShares& shares, Workspace<N, H>& w) {
+  ContactMask bound = 0, forward = 0;
+  for (const Eigen::Index i : shares.bound) {
+    bound |= rest.at(i);
+    if (shares.lambda[i] > 0.0) forward |= rest.at(i);
+  }
+  const Mode<N, H> all = flow.mode(w.mode);
+  while (bound != 0) {
+    w.mode = flow.mode_index(all.stuck & ~bound, all.positive | (forward & bound), all.beyond);
+    const ContactMask mobile = bound & ~flow.configuration(flow.mode(w.mode)).idle;
+    if (mobile == 0) return;
+    bound &= ~bit(first(mobile));  // the others do not hold it
+  }
+  w.mode = flow.mode_index(all.stuck, all.positive, all.beyond);
+}
+
+// Contacts at rest slide from now on, but for those that the others hold. Returns those that do.
+template <int N, int H>
+ContactMask slide(Flow<N, H>& flow, const RestOutcome& outcome, Workspace<N, H>& w) {
+  const StepEquations<N, H>& eq = flow.equations();
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  w.mode = flow.mode_index(mode.stuck & ~outcome.slides, (mode.positive & ~outcome.slides) | outcome.forward,
+                           mode.beyond);
+  const ContactMask slides = outcome.slides & ~at_rest(flow, w);
+  w.fresh |= slides;
+  w.just_released &= ~slides;
+  for (Eigen::Index j = 0; outcome.is_slow && j < eq.contacts(); ++j) {
+    if (contains(slides, j) && eq.static_limit[j] == eq.limit[j]) w.just_released |= bit(j);
+  }
+  return slides;
+}
+
+// The contacts at rest just after this instant: which slide, and how the others share the forces.
+// letting_go: one whose force has reached its limit here (0: none). Returns those that begin to slide.
+template <int N, int H>
+ContactMask hold_together(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
+  ContactMask slid = 0;
+  for (;;) {
+    const ContactMask contacts = at_rest(flow, w);
+    if (contacts == 0) return slid;
     const Mode<N, H>& mode = flow.mode(w.mode);
-    if (!contains(woken & ~mode.stuck, j)) continue;
-    const FirstMotion first = first_motion(flow, j, w);
-    if (mode.sign(j) * first.sign < 0.0)
-      w.mode = flow.mode_index(mode.stuck | bit(j), mode.positive, mode.beyond);
-    else
-      start_sliding(j, first, w);
+    w.mode = flow.mode_index(mode.stuck | contacts, mode.positive, mode.beyond);
+    flow.accelerate(flow.mode(w.mode), w.left);
+    RestProblem rest = rest_problem(flow, contacts, w);
+    rest.letting_go = letting_go & contacts;
+    const bool within = (rest.force.cwiseAbs().array() < (1.0 - kTie) * rest.bound.array()).all();
+    if (within && rest.letting_go == 0) return slid;
+    const RestOutcome outcome = outcome_of(rest);
+    if (!outcome.found) {
+      w.undecided = true;
+      return slid;
+    }
+    const std::size_t all = w.mode;
+    const ContactMask slides = outcome.slides != 0 ? slide(flow, outcome, w) : 0;
+    if (slides == 0) {
+      w.mode = all;
+      share(flow, rest, outcome.shares, w);
+      return slid;
+    }
+    slid |= slides;
   }
 }
 

@@ -19,7 +19,7 @@ struct Event {
   int jumps = 0;
   // The contact that ended the segment; an arrival counts before a release (-1: none changed). Then the slope
   // of its guard function [m a step^2 or N a step], seen from inside the segment, and the side of the limit
-  // that a force reached.
+  // that a force reached. Of an idle contact that shares the forces again it is the stuck force after it.
   Eigen::Index contact = -1;
   double slope = 0.0;
   double side = 1.0;
@@ -56,14 +56,13 @@ struct Passage {
   const char* failure = nullptr;  // why the passage could not be completed
 };
 
-// Contacts that slide in the mode `before` and stick, or slide back, in `after`. Contacts without friction do
-// not count: nothing changes for them.
+// Contacts that slide in the mode `before` and stick, or slide back, in `after`. Contacts at rest and those
+// without friction do not count: nothing changes for them.
 template <int N, int H>
-ContactMask arrived_between(const StepEquations<N, H>& eq, const Mode<N, H>& before,
-                            const Mode<N, H>& after) {
+ContactMask arrived_between(const Flow<N, H>& flow, const Mode<N, H>& before, const Mode<N, H>& after) {
   ContactMask arrived = 0;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(before.stuck, j) || eq.limit[j] == 0.0) continue;
+  for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
+    if (flow.rests(before, j) || flow.equations().limit[j] == 0.0) continue;
     if (contains(after.stuck, j) || after.sign(j) != before.sign(j)) arrived |= bit(j);
   }
   return arrived;

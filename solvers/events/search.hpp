@@ -5,6 +5,7 @@
 // The first event within a step: the first root of a guard, of any contact.
 //   a contact that slides:  its velocity reaches zero
 //   a contact that sticks:  its force reaches the limit
+//   a contact that is idle: its share of the others' forces falls below the limit (loops.hpp)
 // No root is missed, not even a double root at grazing. Bounds of the fourth derivative decide from the ends
 // of the step where they can; elsewhere the Bernstein coefficients of the Taylor polynomial decide.
 namespace frahm::periodic {
@@ -13,6 +14,7 @@ struct GuardEvent {
   double at = 2.0;  // step fraction; beyond 1: none
   Eigen::Index contact = 0;
   bool release = false;  // a stuck contact's force reaches its limit; otherwise a sliding one comes to rest
+  bool shares = false;   // or an idle contact shares the forces again
 };
 inline constexpr double kNoEvent = 2.0;
 
@@ -47,6 +49,14 @@ double first_lasting_fall(const Polynomial& p, double limit, Workspace<N, H>& w)
   return kNoEvent;
 }
 
+// The mode of which contact j's guard is: that of an idle one in which it shares the forces.
+template <int N, int H>
+const Mode<N, H>& guarded_mode(const Flow<N, H>& flow, Eigen::Index j, const Workspace<N, H>& w) {
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  const bool is_idle = contains(flow.configuration(mode).idle, j);
+  return is_idle ? flow.mode(w.sharing[static_cast<std::size_t>(j)]) : mode;
+}
+
 // The guard of contact j at an instant: its velocity, or its force while it sticks.
 template <int N, int H>
 ValueAndSlope guard_at(const Flow<N, H>& flow, const Instant<N, H>& at, const Mode<N, H>& mode,
@@ -58,7 +68,7 @@ ValueAndSlope guard_at(const Flow<N, H>& flow, const Instant<N, H>& at, const Mo
 template <int N, int H>
 Polynomial guard_polynomial(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
-  const Mode<N, H>& mode = flow.mode(w.mode);
+  const Mode<N, H>& mode = guarded_mode(flow, j, w);
   if (!Sizes<N, H>::is_fixed && !eq.is_large()) return flow.guard(w.left, mode, j);
   const Expansion<N, H>& x = w.expand(flow);
   if (contains(mode.stuck, j)) return flow.stuck_force(x, mode, j);
@@ -134,20 +144,44 @@ double first_release(const Flow<N, H>& flow, Eigen::Index j, ValueAndSlope left,
   return first;
 }
 
+// When does the share of idle contact j fall below its limit within the step? The motion goes on unchanged
+// there, however close to another outcome.
+template <int N, int H>
+double first_share(const Flow<N, H>& flow, Eigen::Index j, ValueAndSlope left, ValueAndSlope right,
+                   Workspace<N, H>& w) {
+  const double limit = flow.equations().static_limit[j], side = flow.mode(w.mode).sign(j);
+  const double error = w.force_scale[j] * kFourthDerivative / 384.0;
+  const double least =
+      std::min(std::min(side * left.value, side * right.value),
+               std::min(side * (left.value + left.slope / 3.0), side * (right.value - right.slope / 3.0)));
+  if (least - error > limit) return kNoEvent;
+  const double margin = w.margin;
+  Polynomial excess = side * guard_polynomial(flow, j, w);
+  excess[0] -= limit;
+  const double first = excess[0] <= kTie * limit ? fall_from_limit(excess, limit, false, w)
+                                                 : first_lasting_fall(excess, limit, w);
+  w.margin = margin;
+  return first;
+}
+
 template <int N, int H>
 GuardEvent first_event(const Flow<N, H>& flow, Workspace<N, H>& w) {
   GuardEvent first;
   const Mode<N, H>& mode = flow.mode(w.mode);
-  const ContactMask without_events = flow.configuration(mode).idle | (w.held & mode.stuck);
+  const ContactMask idle = flow.configuration(mode).idle;
   for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
-    if (contains(without_events, j)) continue;
-    const bool sticks = contains(mode.stuck, j);
+    if (contains(w.held & mode.stuck, j)) continue;
+    const bool sticks = contains(mode.stuck, j), shares = contains(idle, j);
+    if (shares && (!flow.equations().holds(j) || !flow.rests(mode, j))) continue;
+    const Mode<N, H>& guarded = guarded_mode(flow, j, w);
     ValueAndSlope &left = w.left_guard[static_cast<std::size_t>(j)],
                   &right = w.right_guard[static_cast<std::size_t>(j)];
-    if (!w.knows_left) left = guard_at(flow, w.left, mode, j);
-    right = guard_at(flow, w.right, mode, j);
-    const double at = sticks ? first_release(flow, j, left, right, w) : first_stop(flow, j, left, right, w);
-    if (at < first.at) first = {at, j, sticks};
+    if (!w.knows_left) left = guard_at(flow, w.left, guarded, j);
+    right = guard_at(flow, w.right, guarded, j);
+    const double at = sticks   ? first_release(flow, j, left, right, w)
+                      : shares ? first_share(flow, j, left, right, w)
+                               : first_stop(flow, j, left, right, w);
+    if (at < first.at) first = {at, j, sticks, shares};
   }
   return first;
 }

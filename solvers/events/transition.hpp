@@ -23,8 +23,8 @@
 //                                        its force is a state    it sticks
 //   a stuck force is at its limit        -                       it lets go at once (two contacts released
 //   and grows after all this                                     together, or one that came to rest in a tie)
-//   in a loop of contacts the others     -                       it carries its limit and is idle (loops.hpp)
-//   hold one that let go
+//   in a loop of contacts a stuck        -                       the others hold it and it carries its limit,
+//   force reaches its limit                                      or some slide (loops.hpp)
 namespace frahm::periodic {
 
 // Sliding contacts that come to rest at this event: its own contact, and others at the same instant.
@@ -89,6 +89,7 @@ class FreeAccelerations {
 // The choice for contacts at rest.
 struct Choice {
   ContactMask stuck = 0, forward = 0;
+  ContactMask at_limit = 0;  // of several, that stick with a force at its limit
 };
 
 // A single contact: it sticks if the force needed for this, c/G, is within the limit.
@@ -153,13 +154,25 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
     const double rounding = kRounding * G.row(i).cwiseAbs().dot(force.cwiseAbs()) / size;
     const double room = (eq.static_limit[j] - std::abs(force[i])) / weight[i];
     const bool has_let_go = least[i] == most[i];
-    if (limit > 0.0 && !contains(w.held, j)) w.note_margin(std::max(pull, room));
-    if (pull <= std::max(kTie, rounding) && limit > 0.0 && !has_let_go)
+    const bool sticks = pull <= std::max(kTie, rounding) && limit > 0.0 && !has_let_go;
+    if (sticks && room <= kTie && !contains(w.held, j))
+      choice.at_limit |= bit(j);
+    else if (limit > 0.0 && !contains(w.held, j))
+      w.note_margin(std::max(pull, room));
+    if (sticks)
       choice.stuck |= bit(j);
     else if (limit > 0.0 ? force[i] > 0.0 : acceleration[i] > 0.0)
       choice.forward |= bit(j);
   }
   return choice;
+}
+
+// Contacts that stick with forces at their limits are about to slide, unless the others hold them too.
+template <int N, int H>
+void note_limits(Flow<N, H>& flow, const Choice& choice, Workspace<N, H>& w) {
+  const ContactMask inside = choice.stuck & ~choice.at_limit;
+  const std::size_t without = flow.mode_index(inside, 0, flow.mode(w.mode).beyond);
+  if ((choice.at_limit & ~flow.configuration(flow.mode(without)).idle) != 0) w.note_margin(0.0);
 }
 
 // The mode in which all contacts at rest whose velocity is held are chosen together.
@@ -183,6 +196,7 @@ void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
   const ContactMask states = before.stuck & ~eq.holding;  // internal forces, which no choice concerns
   w.mode =
       flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward, before.beyond);
+  if (choice.at_limit != 0) note_limits(flow, choice, w);
 }
 
 // A stuck contact lets go. A held contact starts from rest, without relative acceleration unless its force
@@ -201,8 +215,7 @@ void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w)
   w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0), before.beyond);
 }
 
-// Stuck contacts whose force is at its limit and grows let go at once; so does a contact in a loop whose
-// share exceeds its limit.
+// Stuck contacts whose force is at its limit and grows let go at once.
 template <int N, int H>
 void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
   for (bool again = true; again;) {
@@ -221,12 +234,23 @@ void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
   }
 }
 
-// Removes rounding from the velocities of contacts that now stick, and releases those at their limits.
+// Removes rounding from the velocities of contacts that now stick, and decides of those at their limits.
+// letting_go: one of a loop, whose force has reached its limit (0: none).
 template <int N, int H>
-void settle_mode(Flow<N, H>& flow, Workspace<N, H>& w) {
+void settle_mode(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
   flow.configuration(flow.mode(w.mode)).hold(flow.equations(), w.left.u, w.left.z);
   flow.accelerate(flow.mode(w.mode), w.left);
-  release_at_limits(flow, w);
+  if (flow.equations().has_loops) {
+    const ContactMask slid = hold_together(flow, letting_go, w);
+    const bool stays = slid == 0 && (letting_go & flow.mode(w.mode).stuck) != 0;
+    if (stays) {  // its force only just grows
+      const Eigen::Index j = first(letting_go);
+      release(flow, j, flow.stuck_force(w.left, flow.mode(w.mode), j).value > 0.0, w);
+    }
+    if (letting_go != 0) slide_on(flow, w);
+  } else {
+    release_at_limits(flow, w);
+  }
   flow.accelerate(flow.mode(w.mode), w.left);
 }
 
@@ -236,18 +260,21 @@ template <int N, int H>
 void change_mode(Flow<N, H>& flow, ContactMask arrived, Eigen::Index released, bool forward,
                  Workspace<N, H>& w) {
   const ContactMask holding = flow.equations().holding;
+  ContactMask letting_go = 0;
   if (released >= 0) {
-    const ContactMask idle_before = flow.configuration(flow.mode(w.mode)).idle;
-    release(flow, released, forward, w);
-    if (idle_before != 0) wake(flow, idle_before, w);
-    if (contains(holding, released)) slide_on(flow, w);
+    const bool holds = contains(holding, released);
+    if (holds && flow.equations().has_loops)
+      letting_go = bit(released);
+    else
+      release(flow, released, forward, w);
+    if (holds && letting_go == 0) slide_on(flow, w);
   }
   if (const ContactMask states = arrived & ~holding; states != 0) {
     const Mode<N, H>& mode = flow.mode(w.mode);
     w.mode = flow.mode_index(mode.stuck | states, mode.positive, mode.beyond);
   }
-  if ((arrived & holding) != 0) choose_modes(flow, (flow.mode(w.mode).stuck | arrived) & holding, w);
-  settle_mode(flow, w);
+  if ((arrived & holding) != 0) choose_modes(flow, at_rest(flow, w) | (arrived & holding), w);
+  settle_mode(flow, letting_go, w);
 }
 
 }  // namespace frahm::periodic

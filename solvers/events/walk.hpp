@@ -42,6 +42,7 @@ class Walk {
   void advance(double fraction, double phase, Passage<N, H>& passage);
   PassageStep<N, H>* keep_step(double length);
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
+  void pass_share(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage);
   void saltate(ContactMask released, Passage<N, H>& passage);
   Event* change_here(Passage<N, H>& passage) const;
@@ -49,7 +50,6 @@ class Walk {
   void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
                    Passage<N, H>& passage) const;
   void open_segment(Passage<N, H>& passage);
-  void share_forces_again(Passage<N, H>& passage);
 
   Flow<N, H>& flow_;
   Workspace<N, H> w_;

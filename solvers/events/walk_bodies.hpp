@@ -38,7 +38,6 @@ void Walk<N, H>::follow(double phase, double length, Passage<N, H>& passage) {
   constexpr int kMostEvents = 20000;
   int at_this_instant = 0;
   while (passage.failure == nullptr) {
-    share_forces_again(passage);
     w_.expanded = flow_.step(w_.left, flow_.mode(w_.mode), w_.right, w_.expansion);
     const GuardEvent event = first_event(flow_, w_);
     const BendEvent bend = first_bend(flow_, w_);
@@ -48,6 +47,8 @@ void Walk<N, H>::follow(double phase, double length, Passage<N, H>& passage) {
       at_this_instant = next > 0.0 ? 0 : at_this_instant + 1;
       if (bend.at < event.at)
         pass_bend(bend, phase, passage);
+      else if (event.shares)
+        pass_share(event, phase, passage);
       else
         pass_event(event, phase, passage);
       if (at_this_instant > 8 + 4 * (flow_.equations().contacts() + flow_.equations().bends.count()))
@@ -73,21 +74,6 @@ void Walk<N, H>::follow(double phase, double length, Passage<N, H>& passage) {
   if (!passage.end.allFinite()) passage.failure = "the state is not finite";
   if (passage.has_tangent && passage.has_path)
     flow_.tangent_along(passage.path, Precision::exact, passage.tangent);
-}
-
-// Where idle contacts share the forces again the motion continues unchanged, in a new segment.
-template <int N, int H>
-void Walk<N, H>::share_forces_again(Passage<N, H>& passage) {
-  if (flow_.configuration(flow_.mode(w_.mode)).idle == 0) return;
-  end_stretch(passage);
-  if (!share_again(flow_, w_)) return;
-  w_.knows_left = false;
-  passage.segments.back().length = w_.clock - passage.segments.back().start;
-  if (passage.segments.back().length == 0.0)
-    passage.segments.pop_back();
-  else
-    passage.changes.push_back({.segment = passage.segments.size() - 1});
-  open_segment(passage);
 }
 
 template <int N, int H>
@@ -120,6 +106,7 @@ template <int N, int H>
 void Walk<N, H>::open_segment(Passage<N, H>& passage) {
   if (steps_ != nullptr) steps_->end_segment();
   passage.segments.push_back({w_.clock, 0.0, w_.mode, w_.left.z});
+  if (flow_.configuration(flow_.mode(w_.mode)).idle != 0) list_shares(flow_, w_);
 }
 
 template <int N, int H>
@@ -190,7 +177,7 @@ void Walk<N, H>::enter(double phase) {
   }
   w_.mode = flow_.mode_index(stuck_states, positive & ~at_rest, beyond);
   if (at_rest != 0) choose_modes(flow_, at_rest, w_);
-  settle_mode(flow_, w_);
+  settle_mode(flow_, 0, w_);
 }
 
 // Whether contact j, whose force is a state, starts sliding: its force is at the limit, in the direction of
@@ -267,6 +254,22 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
   open_segment(passage);
 }
 
+// An idle contact shares the forces again: the motion goes on unchanged.
+template <int N, int H>
+void Walk<N, H>::pass_share(const GuardEvent& event, double phase, Passage<N, H>& passage) {
+  arrive_at(event.at, phase, passage);
+  --passage.events;
+  const double side = flow_.mode(w_.mode).sign(event.contact);
+  w_.mode = w_.sharing[static_cast<std::size_t>(event.contact)];
+  flow_.accelerate(flow_.mode(w_.mode), w_.left);
+  if (Event* change = change_here(passage); change != nullptr && change->is_to_record(false)) {
+    change->contact = event.contact;
+    change->slope = flow_.stuck_force(w_.left, flow_.mode(w_.mode), event.contact).slope;
+    change->side = side;
+  }
+  open_segment(passage);
+}
+
 // An element bends. Where its force jumps, the forces of all contacts at rest are chosen again.
 template <int N, int H>
 void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage) {
@@ -278,9 +281,9 @@ void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& 
   change_bend(flow_, event, w_);
   const bool jumps = event.guard == BendGuard::place && contains(flow_.equations().bends.jumping, event.bend);
   if (w_.mode != mode_before) {
-    const ContactMask at_rest = flow_.mode(w_.mode).stuck & flow_.equations().holding;
-    if (jumps && at_rest != 0) choose_modes(flow_, at_rest, w_);
-    settle_mode(flow_, w_);
+    const ContactMask resting = at_rest(flow_, w_);
+    if (jumps && resting != 0) choose_modes(flow_, resting, w_);
+    settle_mode(flow_, 0, w_);
   }
   if (jumps && (passage.has_path || passage.has_tangent)) {
     add_bend(flow_, event.bend, before, guard.slope, w_);
@@ -314,7 +317,7 @@ void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& befor
   Event* change = change_here(passage);
   if (change == nullptr) return;
   const Mode<N, H>& after = flow_.mode(w_.mode);
-  const ContactMask arrived = arrived_between(flow_.equations(), mode_before, after);
+  const ContactMask arrived = arrived_between(flow_, mode_before, after);
   change->arrived |= arrived;
   change->released |= mode_before.stuck & ~after.stuck;
   const ContactMask held = arrived & flow_.equations().holding;

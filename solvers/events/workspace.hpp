@@ -25,12 +25,13 @@ struct Workspace {
   // Of each contact its guard (events/search.hpp) at both ends of the step: that of `left` where it is known.
   std::vector<ValueAndSlope> left_guard, right_guard;
   bool knows_left = false;
-  double clock = 0.0;                           // steps since the passage began
-  double behind = 0.0;                          // steps since the last stretch of the path ended
-  ContactMask fresh = 0;                        // sliding contacts whose velocity is zero at `left`
-  ContactMask just_released = 0;                // fresh contacts whose relative acceleration is zero too
-  ContactMask free = 0;                         // bends past their place that push no more (bend_guards.hpp)
-  ContactMask at_place = 0, without_force = 0;  // bends whose guard is zero at `left`
+  std::vector<std::size_t> sharing;  // of each idle contact the mode in which it shares forces (loops.hpp)
+  double clock = 0.0;                // steps since the passage began
+  double behind = 0.0;               // steps since the last stretch of the path ended
+  ContactMask fresh = 0;             // sliding contacts whose velocity is zero at `left`
+  ContactMask just_released = 0;     // fresh contacts whose relative acceleration is zero too
+  ContactMask free = 0;              // bends past their place that push no more (bend_guards.hpp)
+  ContactMask at_place = 0, without_force = 0;                       // bends whose guard is zero at `left`
   std::vector<JumpOf<typename S::Vector, typename S::State>> jumps;  // of the tangent, at the current event
   double margin = 1.0;                                               // see Passage::margin
   bool undecided = false;                                            // a joint choice found no answer

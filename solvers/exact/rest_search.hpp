@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/algebra/null_space.hpp"
 #include "solvers/flow/linear_form.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/rest_position.hpp"
@@ -47,6 +48,7 @@ class RestSearch {
   ContactMask slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const;
   double time_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   void hold_all(Orbit<N, H>& orbit);
+  bool rests_in_loops(const Orbit<N, H>& orbit) const;
 
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
   std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit);
@@ -195,6 +197,19 @@ std::vector<StuckForce> RestSearch<N, H>::stuck_forces(ContactMask contacts, con
   return forces;
 }
 
+// Whether contacts that rest at one time form a loop.
+template <int N, int H>
+bool RestSearch<N, H>::rests_in_loops(const Orbit<N, H>& orbit) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  return eq.has_loops && std::ranges::any_of(orbit.passage.segments, [&](const Segment<N, H>& segment) {
+           std::vector<Eigen::Index> resting;
+           for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+             if (eq.holds(j) && flow_.rests(flow_.mode(segment.mode), j)) resting.push_back(j);
+           }
+           return resting.size() > 1 && algebra::null_space(eq.W(Eigen::all, resting)).cols() > 0;
+         });
+}
+
 template <int N, int H>
 typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   if (orbit.stuck_throughout == 0) return Shift::none;  // a slider that was to be held slid from the start
@@ -209,13 +224,15 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   if (found.verdict == RestShift::Verdict::none) return Shift::none;
   const typename Sizes<N, H>::State by = rest.E * found.delta;
   shift_orbit<N, H>(by, orbit);
-  // Part of the shift's forces may strain a loop alone; no state contains this part. If the reported shares
-  // then break a limit, or a force was at its limit before the shift, the motion is followed once more from
-  // the shifted state.
-  const bool stood_at_limit = orbit.status == Status::grazing && found.verdict == RestShift::Verdict::inside;
-  const bool breaks_limit =
-      eq.has_loops && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit);
-  if (stood_at_limit || breaks_limit) {
+  // Where contacts rest in loops they share its forces, up to other instants than before. So the motion is
+  // followed once more from the shifted state; also where a force was at its limit before the shift. With a
+  // force at its limit now a contact may slip by rounding: then only if the shares told break a limit.
+  const bool is_inside = found.verdict == RestShift::Verdict::inside;
+  const bool stood_at_limit = orbit.status == Status::grazing && is_inside;
+  const bool shares_anew = !by.isZero(0.0) && rests_in_loops(orbit) &&
+                           (is_inside || std::ranges::any_of(stuck_forces(flow_.equations().holding, orbit),
+                                                             &StuckForce::breaks_limit));
+  if (stood_at_limit || shares_anew) {
     shooting_.find(orbit);
     if (!orbit.is_found()) return Shift::none;
   }

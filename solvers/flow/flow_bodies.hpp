@@ -56,7 +56,8 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive, Cont
   mode.friction.resize(equations_.contacts());
   for (Eigen::Index j = 0; j < equations_.contacts(); ++j) {
     const bool slides = equations_.holds(j) && !contains(stuck, j);
-    mode.friction[j] = slides ? mode.sign(j) * equations_.limit[j] : 0.0;
+    const bool idle = contains(configuration.idle, j);  // at rest, where the static limit holds
+    mode.friction[j] = slides ? mode.sign(j) * (idle ? equations_.static_limit : equations_.limit)[j] : 0.0;
   }
   mode.acceleration = configuration.pull_of_friction(equations_, mode.friction);
   mode.stuck_force = configuration.stuck_force_of_friction(equations_, mode.friction);

@@ -232,8 +232,13 @@ void Gradient<N, H>::look_at_forces(const Instant<N, H>& x, const InstantDerivat
   for (std::size_t contact = 0; contact < motion_.contacts.size(); ++contact) {
     const auto j = static_cast<Eigen::Index>(contact);
     ContactForce& its = motion_.contacts[contact];
-    its = {contains(mode.stuck, j), mode.sign(j), 0.0, 0.0};
+    its = {flow_.rests(mode, j), mode.sign(j), 0.0, 0.0};
     if (!its.sticks) continue;
+    if (!contains(mode.stuck, j)) {  // it carries its limit while others hold it
+      its.force = mode.friction[j];
+      its.force_by = mode.sign(j) * by_.static_limit[j];
+      continue;
+    }
     its.force = flow_.stuck_force(x, mode, j).value;
     its.force_by = sensitivity_.passage().stuck_force(mode_index, x, d.z, j);
   }

@@ -214,15 +214,17 @@ double PassageSensitivity<N, H>::cross(const Event& change, const PassageStep<N,
   return shift;
 }
 
-// Of a stuck force that reaches its limit.
+// Of a stuck force that reaches its limit, or of an idle contact's share that falls below it.
 template <int N, int H>
 double PassageSensitivity<N, H>::let_go(const Event& change, const PassageStep<N, H>& before,
                                         const PassageStep<N, H>& after, typename S::State& delta) {
   const Eigen::Index n = flow_.equations().masses();
-  mode(before.mode);
-  const double force = stuck_force(before.mode, before.right, delta, change.contact);
+  const bool shares = contains(flow_.mode(after.mode).stuck, change.contact);
+  const std::size_t sticking = shares ? after.mode : before.mode;
+  mode(sticking);
+  const double force = stuck_force(sticking, shares ? after.left : before.right, delta, change.contact);
   const double shift = (change.side * by_->static_limit[change.contact] - force) / change.slope;
-  if (falls_at_release(flow_.equations(), change.contact))
+  if (!shares && falls_at_release(flow_.equations(), change.contact))
     delta.segment(n, n) += (before.right.a - after.left.a) * shift;
   return shift;
 }

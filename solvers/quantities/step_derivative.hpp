@@ -114,7 +114,9 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   r_u.noalias() -= by.M * c.Au;
   r_u.col(0).noalias() -= by.M * mode.acceleration;
   for (Eigen::Index j = 0; j < m; ++j) {
-    if (eq.holds(j) && !contains(mode.stuck, j)) r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
+    if (!eq.holds(j) || contains(mode.stuck, j)) continue;
+    const double limit_by = (contains(c.idle, j) ? by.static_limit : by.limit)[j];
+    r_u.col(0) -= (mode.sign(j) * limit_by) * eq.W.col(j);
   }
 
   for (Eigen::Index j = 0; mode.beyond != 0 && j < eq.bends.count(); ++j) {

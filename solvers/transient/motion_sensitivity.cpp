@@ -126,7 +126,7 @@ const char* MotionSensitivity::cross_border(const Step& first) {
   const periodic::Mode<kAny, kAny>&before = ending_.mode, &after = flow_.mode(first.mode);
   const periodic::ContactMask bent = (after.beyond ^ before.beyond) & eq.bends.jumping;
   if (after.stuck == before.stuck && after.positive == before.positive && bent == 0) return "";
-  const periodic::ContactMask arrived = periodic::arrived_between(eq, before, after) & eq.holding;
+  const periodic::ContactMask arrived = periodic::arrived_between(flow_, before, after) & eq.holding;
   if (bent != 0) return arrived == 0 ? cross_bends(bent, first) : periodic::kSeveralChange;
   if (arrived == 0) return falls_from_limit(before.stuck & ~after.stuck) ? kLetsGo : "";
   if (periodic::count(arrived) > 1) {

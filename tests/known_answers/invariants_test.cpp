@@ -32,9 +32,12 @@ TEST_CASE("What leaves the motion of a random network as it is leaves its respon
 }
 
 // 503736: friction holds a mass against a force through 10^4 steps. 504224: two contacts hold for ever, one
-// on a weak spring; the search came from afar.
+// on a weak spring; the search came from afar. 603720, 626547, 666023, 673959, 668320, 623420: contacts in
+// loops share forces, at their limits and off them again. 646138: one between masses that rest on the same
+// support.
 TEST_CASE("Networks that once broke an invariant keep them all") {
-  for (const std::uint64_t seed : {503736, 504224, 605939, 666224}) {
+  for (const std::uint64_t seed :
+       {503736, 504224, 603720, 605939, 623420, 626547, 646138, 666023, 666224, 668320, 673959}) {
     INFO("random_invariants --seed " << seed);
     CHECK(broken_by(seed, Of::all) == "");
   }

@@ -1,0 +1,94 @@
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/known_answers/responses.hpp"
+
+// Contacts that form a loop: two masses held to the ground and to each other. What each carries is a
+// convention, the least sum of (lambda / F)^2 within the limits, of which the answers here follow by hand.
+namespace frahm::periodic {
+namespace {
+
+using namespace mechanics;
+using Catch::Matchers::WithinAbs;
+constexpr double kRounding = 1e-12;  // of forces of order 1
+
+constexpr Node kGround{NodeKind::ground, 0}, kDriven{NodeKind::mass, 0}, kBeside{NodeKind::mass, 1};
+constexpr double kLower = 2.0, kJoint = 0.3, kUpper = 0.4;
+
+// The driven mass is held to the ground by one contact, and by two in series through the mass beside it.
+Network clamp() {
+  return {.masses = {"driven", "beside"},
+          .prescribed = {},
+          .elements = {{"spring", ElementType::spring, kGround, kDriven},
+                       {"link", ElementType::spring, kDriven, kBeside},
+                       {"damper", ElementType::damper, kGround, kDriven},
+                       {"lower", ElementType::coulomb, kGround, kDriven},
+                       {"joint", ElementType::coulomb, kDriven, kBeside},
+                       {"upper", ElementType::coulomb, kGround, kBeside}},
+          .excitations = {{ExcitationKind::force, 0, 1}}};
+}
+
+NetworkValues values(double force, double phase) {
+  return {.omega = 0.8,
+          .mass = {1.0, 0.7},
+          .element = {1.0, 2.0, 0.1, kLower, kJoint, kUpper},
+          .excitation = {{force, phase}}};
+}
+
+TEST_CASE("Contacts in a loop share a force by the least sum, and within their limits, at any phase origin") {
+  // Of a force N the two in series take the part that makes their sum and the other's least.
+  const double in_series = 1.0 / (1.0 / (kJoint * kJoint) + 1.0 / (kUpper * kUpper));
+  const double part = in_series / (in_series + kLower * kLower);
+  Responses responses(clamp());
+  for (const double force : {1.5, 2.2}) {
+    for (int i = 0; i < 24; ++i) {
+      const double phase = i * 0.27;
+      INFO("force " << force << " at phase " << phase);
+      responses.solve(values(force, phase));
+      CHECK(responses["status"] == 1.0);
+      const double through_joint = force * (1.0 - part) < kLower ? force * part : force - kLower;
+      CHECK_THAT(responses["joint_force_peak"], WithinAbs(through_joint, kRounding));
+      CHECK_THAT(responses["upper_force_peak"], WithinAbs(through_joint, kRounding));
+      CHECK_THAT(responses["lower_force_peak"], WithinAbs(force - through_joint, kRounding));
+      for (const char* contact : {"lower", "joint", "upper"}) {
+        CHECK(responses[std::string(contact) + "_stuck_fraction"] == 1.0);
+        CHECK(responses[std::string(contact) + "_stops"] == 0.0);
+      }
+    }
+  }
+}
+
+TEST_CASE("The peak of a share has the derivative of its closed form") {
+  Responses responses(clamp());
+  responses.solve(values(2.2, 0.4));
+  const auto quantities = all_quantities(clamp());
+  NetworkValues by_force{
+      .mass = {0.0, 0.0}, .element = std::vector<double>(6, 0.0), .excitation = {{1.0, 0.0}}};
+  NetworkValues by_limit = by_force;
+  by_limit.excitation[0].amplitude = 0.0;
+  by_limit.element[3] = 1.0;
+  std::vector<double> out(2 * quantities.size());
+  REQUIRE(responses.response().gradient(std::vector{by_force, by_limit}, out) == "");
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i] != *find_quantity("joint_force_peak", clamp())) continue;
+    CHECK_THAT(out[i], WithinAbs(1.0, kRounding));
+    CHECK_THAT(out[quantities.size() + i], WithinAbs(-1.0, kRounding));
+  }
+}
+
+TEST_CASE("A clamp lets go where the limits of no distribution hold it") {
+  Responses responses(clamp());
+  for (const double force : {kLower + kJoint - 1e-6, kLower + kJoint + 1e-2}) {
+    const bool holds = force < kLower + kJoint;
+    INFO("force " << force);
+    responses.solve(values(force, 0.4));
+    CHECK((responses["joint_stuck_fraction"] == 1.0) == holds);
+    CHECK((responses["lower_stuck_fraction"] == 1.0) == holds);
+    CHECK(responses["upper_stuck_fraction"] == 1.0);
+    CHECK((responses["driven_amplitude"] > 0.0) != holds);
+  }
+}
+
+}  // namespace
+}  // namespace frahm::periodic
