@@ -70,7 +70,7 @@ test("what cannot be done is said, with its exit code", (t) => {
   frahm(["run", study("lecture_springs"), "-o", file, "--progress", "none"]);
   assert.match(
     frahm(["report", file, "--quantities", "nothing"], { code: 2 }),
-    /no quantity "nothing"; it has/,
+    /no quantity "nothing"; known: /,
   );
   assert.match(
     frahm(["report", join(folder, "absent.h5")], { code: 6 }),
