@@ -1,16 +1,17 @@
 #include "studies/program/figure_mark.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
+
+#include "studies/record/fingerprint.hpp"
 
 namespace frahm::studies {
 namespace {
 
 std::string mark_of(std::string_view figure, std::string_view extension) {
   const bool is_pdf = extension == ".pdf";
-  const XXH128_hash_t hash = XXH3_128bits(figure.data(), figure.size());
-  return fmt::format("\n{} a figure of frahm report, {:016x}{:016x}{}\n", is_pdf ? "%" : "<!--", hash.high64,
-                     hash.low64, is_pdf ? "" : " -->");
+  const results::Text text("figure", figure);
+  return fmt::format("\n{} a figure of frahm report, {}{}\n", is_pdf ? "%" : "<!--", identity_of({&text, 1}),
+                     is_pdf ? "" : " -->");
 }
 
 }  // namespace
