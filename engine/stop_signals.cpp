@@ -22,6 +22,17 @@ extern "C" void ask_to_stop(int signal) {
   }
 }
 
+// A signal that is ignored already, as nohup and a shell's jobs in the background have it, stays ignored.
+void listen_to(int signal, struct sigaction& before) {
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  // These cannot fail: the signals exist and may be caught.
+  ::sigaction(signal, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+}
+
 }  // namespace
 
 StopSignals::StopSignals() {
@@ -30,14 +41,9 @@ StopSignals::StopSignals() {
     throw std::logic_error("a run is already under way in this process");
   }
   interrupts = 0;
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  action.sa_flags = SA_RESTART;
-  sigemptyset(&action.sa_mask);
-  // These cannot fail: the signals exist and may be caught.
-  ::sigaction(SIGTERM, &action, &terminate_before_);
-  ::sigaction(SIGINT, &action, &interrupt_before_);
-  ::sigaction(SIGUSR1, &action, &user_before_);
+  listen_to(SIGTERM, terminate_before_);
+  listen_to(SIGINT, interrupt_before_);
+  listen_to(SIGUSR1, user_before_);
 }
 
 StopSignals::~StopSignals() {

@@ -6,8 +6,8 @@
 namespace frahm::engine {
 
 // As long as it lives, SIGTERM, SIGINT and SIGUSR1 ask the run to stop instead of ending the process; a
-// second SIGINT ends it at once. The previous handlers are restored afterwards. Only one may exist at a time
-// (std::logic_error): signals belong to the process.
+// second SIGINT ends it at once. One of them that is ignored stays ignored. The previous handlers are
+// restored afterwards. Only one may exist at a time (std::logic_error): signals belong to the process.
 class StopSignals {
  public:
   StopSignals();

@@ -145,7 +145,7 @@ periodic::BranchWanted wanted_branch(const Study& study, std::size_t along,
 void check_place(const BranchCommandOptions& options) {
   if (!options.output) return;
   if (is_result(*options.output))
-    check_result_place(*options.output, options.study);
+    check_result_place(*options.output, options.study, options.fresh);
   else
     check_output_is_not_input(*options.output, options.study);
 }
@@ -200,6 +200,7 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
   if (options.output && is_result(*options.output)) {
     lock.emplace(*options.output);
     if (!options.fresh) refuse_another_result(*options.output, plan);
+    make_room_beside(*options.output, plan, options.fresh);
   }
   const std::vector<periodic::Quantity> quantities = branch_quantities(study);
   const auto values_at = [&](double value) {

@@ -9,7 +9,6 @@
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
 #include "studies/record/finished_file.hpp"
-#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 
@@ -31,22 +30,6 @@ void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::fil
                   "with -o; --from {} reuses its points there too",
                   lost, from.string()));
 }
-
-namespace {
-
-// None where the note of their study is not beside them.
-std::vector<std::string> changes_since_logs(const engine::ResumeRefused& refused, const Study& now,
-                                            const std::filesystem::path& output) {
-  try {
-    return study_changes(study_from_note({output}, refused.kept()).study, now);
-  } catch (const engine::IoError&) {
-    return {};
-  } catch (const StudyError&) {  // its tables are gone
-    return {};
-  }
-}
-
-}  // namespace
 
 std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyPlan& plan,
                               const std::filesystem::path& output) {

@@ -148,7 +148,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   const Clock::time_point start = Clock::now();
   const std::clock_t cpu_start = std::clock();
   RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};
-  check_result_place(run.output, options.study);
+  check_result_place(run.output, options.study, run.fresh);
   std::optional<engine::OutputLock> lock;
   if (!begin(plan, run, options.from, lock)) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
@@ -167,7 +167,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
                                  .threads = summary.threads_here,
                                  .progress = run.progress,
                                  .stop_asked = [&] { return stop.asked(); }};
-  check_result_place(run.output, options.study);  // again: it may have changed
+  check_result_place(run.output, options.study, run.fresh);  // again: it may have changed
   const Clock::time_point computed = Clock::now();
   if (!work.assemble(record, assembly, *lock))
     return tell_unwritten(stop, run.output, std::chrono::duration<double>(Clock::now() - computed).count());

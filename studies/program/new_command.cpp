@@ -23,6 +23,8 @@ int new_command(const NewOptions& options, std::ostream& out) {
   }
   const std::filesystem::path file =
       options.file.empty() ? std::filesystem::path(options.kind + ".toml") : options.file;
+  if (file.extension() == ".h5")
+    throw StudyError(rules::wrong_file, "{}: has the name of a result; name this study .toml", file.string());
   if (std::filesystem::exists(std::filesystem::symlink_status(file)))
     throw engine::IoError(file, "is there already, and is not replaced; name another file");
   write_whole_file(file, text);

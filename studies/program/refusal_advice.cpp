@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "engine/fingerprint.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "engine/io_error.hpp"
+#include "engine/tile_index.hpp"
+#include "studies/program/study_note.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/study_changes.hpp"
 
@@ -25,6 +31,35 @@ void refuse_another_result(const std::filesystem::path& output, const StudyPlan&
   if (!kept || *kept == plan.fingerprint) return;
   throw engine::ResumeRefused(output, *kept, plan.fingerprint,
                               refusal_advice(changes_since(output, plan.study)));
+}
+
+std::vector<std::string> changes_since_logs(const engine::ResumeRefused& refused, const Study& now,
+                                            const std::filesystem::path& output) {
+  try {
+    return study_changes(study_from_note({output}, refused.kept()).study, now);
+  } catch (const engine::IoError&) {
+    return {};
+  } catch (const StudyError&) {  // its tables are gone
+    return {};
+  }
+}
+
+void make_room_beside(const std::filesystem::path& output, const StudyPlan& plan, bool fresh) {
+  const std::vector<std::filesystem::path> logs = engine::find_logs(output);
+  if (logs.empty()) return;
+  if (fresh) {
+    engine::remove_logs(logs);
+    remove_study_notes(output);
+    return;
+  }
+  try {
+    engine::index_tiles(logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
+  } catch (const engine::ResumeRefused& refused) {
+    // A branch has the physics of its study, in which nothing has changed.
+    const auto changes = refused.physics_differs() ? changes_since_logs(refused, plan.study, output)
+                                                   : std::vector<std::string>();
+    throw engine::ResumeRefused(refused, refusal_advice(changes));
+  }
 }
 
 }  // namespace frahm::studies

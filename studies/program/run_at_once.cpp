@@ -10,7 +10,6 @@
 #include "engine/io_error.hpp"
 #include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
-#include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/motion/motion_record.hpp"
@@ -18,6 +17,7 @@
 #include "studies/program/refusal_advice.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"
+#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -50,16 +50,9 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
   }
 }
 
-// An identification is computed again if its data have changed.
-bool is_of_same_file(const Study& study, const std::filesystem::path& output) {
-  const results::MapReader map(output);
-  const std::string name = std::filesystem::path(study.source.name).filename().string();
-  return map.has_group(identification_group) && provenance_text(map, "study_file") == name;
-}
-
+// An identification is computed again where nothing but its measured data has changed.
 void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
-  const bool is_there = std::filesystem::exists(output);
-  if (is_there && plan.study.identify() && is_of_same_file(plan.study, output)) return;
+  if (plan.study.identify() && has_same_document(output, plan.study)) return;
   refuse_another_result(output, plan);
 }
 
@@ -114,9 +107,10 @@ int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
   refuse_own_data(plan.study, output);
-  check_result_place(output, options.study);
+  check_result_place(output, options.study, options.run.fresh);
   const engine::OutputLock lock(output);
   if (!options.run.fresh) refuse_another_study(plan, output);
+  make_room_beside(output, plan, options.run.fresh);
 
   int code = exit_code::done;
   try {

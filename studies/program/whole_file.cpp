@@ -14,6 +14,7 @@
 #include "engine/io_error.hpp"
 #include "engine/output_lock.hpp"
 #include "results/part_file.hpp"
+#include "studies/program/figure_mark.hpp"
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/study_source.hpp"
 #include "studies/record/finished_file.hpp"
@@ -30,6 +31,11 @@ void write_file(const std::filesystem::path& path, const std::filesystem::path& 
   write(file);
   file.close();
   if (!file) throw engine::IoError(named, "write", errno);
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 // The names of the columns of a table; a page that is named .csv has one long column.
@@ -59,11 +65,6 @@ bool is_page(const std::filesystem::path& there) {
   return false;
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void check_replaced(const std::filesystem::path& there, const std::filesystem::path& made,
                     Replaces replaces) {
   std::error_code ignored;  // a file that is gone is not replaced
@@ -73,6 +74,10 @@ void check_replaced(const std::filesystem::path& there, const std::filesystem::p
         there, "is there already and is no table with these columns; name another file, or remove it");
   if (replaces == Replaces::own_page && !is_page(there))
     throw engine::IoError(there, "is there already and is no page of frahm; name another file, or remove it");
+  if (replaces == Replaces::own_figure && !has_figure_mark(text_of(there), there.extension().string()))
+    throw engine::IoError(there,
+                          "is there already and is no figure of frahm, or one that was changed since; name "
+                          "another folder, or remove it");
   if (replaces == Replaces::own_text) refuse_other_text(there, text_of(made));
 }
 
@@ -85,6 +90,15 @@ void refuse_other_text(const std::filesystem::path& there, std::string_view text
   throw engine::IoError(there,
                         "is there already and differs from what would be written, as where it was changed by "
                         "hand; name another file, or remove it");
+}
+
+void require_place(const std::filesystem::path& path, const std::filesystem::path& made, Replaces replaces) {
+  refuse_link(path);
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw engine::IoError(path, "create", EISDIR);
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw engine::IoError(path, "is not a regular file, which would be replaced; remove it");
+  check_replaced(path, made, replaces);
 }
 
 void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include "engine/file.hpp"
@@ -68,14 +70,37 @@ void require_folder_of(const std::filesystem::path& output) {
     throw engine::IoError(output, fmt::format("{} is no folder: {}", folder.string(), words(ENOTDIR)));
 }
 
-void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study) {
+namespace {
+
+// Whether a file that cannot be read was a result: by its first bytes, of HDF5 and of the attributes of its
+// root.
+bool begins_as_result(const std::filesystem::path& path) {
+  constexpr std::size_t length_of_beginning = 4096;
+  std::string beginning(length_of_beginning, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  const auto has = [&](std::string_view word) { return beginning.find(word) != std::string::npos; };
+  return beginning.starts_with("\x89HDF\r\n\x1a\n") && has("format_version") && has("frahm");
+}
+
+void refuse_name_of_study(const std::filesystem::path& output) {
+  if (output.extension() == ".toml")
+    throw StudyError(rules::wrong_file, "{}: has the name of a study; name this output .h5", output.string());
+}
+
+}  // namespace
+
+void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study,
+                        std::optional<bool> fresh) {
   std::error_code error;
   if (!std::filesystem::exists(output, error)) {
+    refuse_name_of_study(output);
     require_folder_of(output);
     return refuse_link(output);
   }
   if (std::filesystem::equivalent(output, study, error))
     throw engine::IoError(output, "is the study itself; give another -o");
+  refuse_name_of_study(output);
   if (!std::filesystem::is_regular_file(output, error))
     throw engine::IoError(output,
                           "is not a regular file, and a result is not written there; give another -o");
@@ -83,8 +108,13 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
   try {
     const results::MapReader result(output);
   } catch (const results::StoreError& reason) {
-    throw engine::IoError(
-        output, fmt::format("is not a result of frahm; give another -o, or remove it ({})", reason.what()));
+    if (!begins_as_result(output))
+      throw engine::IoError(
+          output, fmt::format("is not a result of frahm; give another -o, or remove it ({})", reason.what()));
+    if (!fresh.value_or(false))
+      throw engine::IoError(
+          output, fmt::format("is a result that is damaged, or of a later version ({}); {}", reason.what(),
+                              fresh ? "--fresh computes it anew" : "remove it"));
   }
 }
 

@@ -42,9 +42,11 @@ void refuse_link(const std::filesystem::path& output);
 void require_folder_of(const std::filesystem::path& output);
 
 // A result may be a new file or replace another result; it never replaces a study, a table, any other file, a
-// folder, a device or a link.  study: the study's own file; empty: not known.
-// Throws engine::IoError.
-void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study);
+// folder, a device or a link, nor has it the name of a study.  study: the study's own file; empty: not known.
+// fresh: of a command with --fresh, whether it is given, and a result that is damaged replaced.
+// Throws engine::IoError, StudyError for the name of a study.
+void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study,
+                        std::optional<bool> fresh = std::nullopt);
 
 // Reads all of a result that is taken for finished. Throws results::StoreError if it is damaged, with what to
 // do.

@@ -42,12 +42,16 @@ TomlValue document_of(const Study& study) {
   return document;
 }
 
+std::vector<std::string> changes_of_documents(const Study& kept, const Study& now) {
+  if (kept.kind() != now.kind())
+    return {fmt::format("kind: \"{}\", now \"{}\"", kind_name(kept.kind()), kind_name(now.kind()))};
+  return document_changes(document_of(kept), document_of(now));
+}
+
 }  // namespace
 
 std::vector<std::string> study_changes(const Study& kept, const Study& now) {
-  if (kept.kind() != now.kind())
-    return {fmt::format("kind: \"{}\", now \"{}\"", kind_name(kept.kind()), kind_name(now.kind()))};
-  std::vector<std::string> changes = document_changes(document_of(kept), document_of(now));
+  std::vector<std::string> changes = changes_of_documents(kept, now);
   if (changes.empty())
     changes.emplace_back(
         "nothing in the study itself: the content of a file that it reads, or what this version of frahm "
@@ -60,6 +64,15 @@ std::vector<std::string> changes_since(const std::filesystem::path& result, cons
     return study_changes(read_stored_study(results::MapReader(result), result).study, now);
   } catch (const StudyError&) {  // its tables may be gone, or it was written by another version
     return {};
+  }
+}
+
+bool has_same_document(const std::filesystem::path& result, const Study& now) {
+  if (!std::filesystem::exists(result)) return false;
+  try {
+    return changes_of_documents(read_stored_study(results::MapReader(result), result).study, now).empty();
+  } catch (const StudyError&) {  // written by another version
+    return false;
   }
 }
 

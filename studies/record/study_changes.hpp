@@ -16,4 +16,8 @@ std::vector<std::string> study_changes(const Study& kept, const Study& now);
 // read.
 std::vector<std::string> changes_since(const std::filesystem::path& result, const Study& now);
 
+// Whether there is a result whose study says the same as this one in all that a result depends on, so that
+// only the content of a file that it reads, or the program, can have changed.
+bool has_same_document(const std::filesystem::path& result, const Study& now);
+
 }  // namespace frahm::studies

@@ -250,6 +250,33 @@ TEST_CASE("an identification is made anew where its data have changed, and never
   CHECK_THAT(text_of(folder / "record.csv"), Catch::StartsWith("time,"));
 }
 
+TEST_CASE("an identification that was edited replaces no other result unasked, whatever its file is called") {
+  const runs::Folder folder, other;
+  std::string csv = "time,cart_displacement\n";
+  const std::vector<double> x = small_motion(200);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    csv += std::to_string(0.005 * static_cast<double>(i)) + "," + std::to_string(x[i]) + "\n";
+  folder.write("record.csv", csv);
+  other.write("record.csv", csv);
+  const std::string study = folder.write("small.toml", small_study), output = folder / "small.h5";
+  REQUIRE(runs::frahm({"run", study, "-o", output}).code == 0);
+  const std::string before = text_of(output);
+  const auto is_refused = [&](const std::string& changed, const std::string& told) {
+    const runs::Outcome refused = runs::frahm({"run", changed, "-o", output});
+    INFO(refused.err);
+    CHECK(refused.code == 5);
+    CHECK_THAT(refused.err, Catch::Contains("what changed:") && Catch::Contains(told));
+    CHECK(text_of(output) == before);
+  };
+  const std::string heavier = runs::replaced(small_study, "mass = 7.3", "mass = 7.4");
+  is_refused(other.write("small.toml", heavier), "mass \"cart\"");
+  folder.write("small.toml", heavier);
+  is_refused(study, "mass \"cart\"");
+  folder.write("small.toml", small_study + "lower = 1\n");
+  is_refused(study, "lower");
+  CHECK(runs::frahm({"run", study, "-o", output, "--fresh"}).code == 0);
+}
+
 TEST_CASE("a parameter called like something else in the result is told of, not an internal error") {
   const runs::Folder folder;
   const std::vector<double> x = small_motion(100);

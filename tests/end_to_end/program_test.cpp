@@ -328,6 +328,66 @@ TEST_CASE("a branch replaces itself alone, any other result only when asked") {
   CHECK(folder.names() == Names{"branch.h5", "small.h5", "small.toml"});
 }
 
+TEST_CASE("logs of a stopped run are in the way of any other study, and discarded only when asked") {
+  const Folder folder;
+  const std::string map = folder.write("small.toml", small), output = folder / "small.h5";
+  const std::string decay =
+      folder.write("decay.toml", text_of(study_path("lecture_free_vibration_friction")));
+  for (const Names& other :
+       {Names{"run", decay, "-o", output, "--progress", "none"},
+        Names{"branch", map, "--along", "r", "-o", output, "--progress", "none"},
+        Names{"branch", map, "--along", "r", "--set", "zeta=0.1", "-o", output, "--progress", "none"}}) {
+    INFO(other.front() << " " << other[1]);
+    REQUIRE(run(map, output, {"--shard", "0/2"}).code == 0);
+    const Names before = folder.names();
+    const auto refused = frahm(other);
+    CHECK(refused.code == 5);
+    CHECK_THAT(refused.err, Catch::Contains("results of different studies are never mixed") &&
+                                Catch::Contains("or discard what is there with --fresh"));
+    CHECK(folder.names() == before);
+    Names asked = other;
+    asked.emplace_back("--fresh");
+    CHECK(frahm(asked).code == 0);
+    CHECK(folder.names() == Names{"decay.toml", "small.h5", "small.toml"});
+    std::filesystem::remove(output);
+  }
+}
+
+TEST_CASE("a result has not the name of a study, nor a study that of a result") {
+  const Folder folder;
+  const std::string map = folder.write("small.toml", small);
+  const std::string decay =
+      folder.write("decay.toml", text_of(study_path("lecture_free_vibration_friction")));
+  for (const std::string& study : {map, decay}) {
+    const auto refused = run(study, folder / "q.toml");
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.err, Catch::Contains("q.toml: has the name of a study; name this output .h5"));
+  }
+  const auto refused = frahm({"new", "sweep", folder / "a.h5"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Catch::Contains("a.h5: has the name of a result; name this study .toml"));
+  CHECK(folder.names() == Names{"decay.toml", "small.toml"});
+}
+
+TEST_CASE("a result that was cut off is called damaged, and --fresh computes it anew") {
+  const Folder folder;
+  const std::string map = folder.write("small.toml", small), output = folder / "small.h5";
+  const std::string decay =
+      folder.write("decay.toml", text_of(study_path("lecture_free_vibration_friction")));
+  for (const std::string& study : {map, decay}) {
+    REQUIRE(run(study, output, {"--fresh"}).code == 0);
+    const std::string whole = text_of(output);
+    folder.write("small.h5", whole.substr(0, whole.size() / 2));
+    const auto refused = run(study, output);
+    CHECK(refused.code == 6);
+    CHECK_THAT(refused.err, Catch::Contains("small.h5: is a result that is damaged, or of a later version") &&
+                                Catch::Contains("--fresh computes it anew"));
+    CHECK(run(study, output, {"--fresh"}).code == 0);
+    CHECK(text_of(output).size() > whole.size() / 2);
+    CHECK(frahm({"status", output}).code == 0);
+  }
+}
+
 TEST_CASE("a folder given for a result is called one") {
   const Folder folder;
   const std::string study = folder.write("small.toml", small);

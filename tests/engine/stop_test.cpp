@@ -53,6 +53,19 @@ TEST_CASE("a signal stops the run after the tiles in hand, and the next run goes
   CHECK(kept_tiles(scratch.output(), study_of(stopping)) == expected_tiles(80));
 }
 
+TEST_CASE("a signal that is ignored when the run begins does not stop it, and is ignored afterwards") {
+  const Scratch scratch;
+  const int signal = GENERATE(SIGTERM, SIGINT, SIGUSR1);
+  const auto before = std::signal(signal, SIG_IGN);
+  const Summary summary = run(sample_job(20,
+                                         [signal](std::uint64_t tile) {
+                                           if (tile == 3) std::raise(signal);
+                                         }),
+                              quiet(scratch));
+  CHECK(std::signal(signal, before) == SIG_IGN);
+  CHECK(summary.outcome == Outcome::complete);
+}
+
 TEST_CASE("a run that is stopped again and again ends with the bytes of an uninterrupted one") {
   const Scratch scratch;
   RunOptions options = quiet(scratch);

@@ -168,4 +168,5 @@ def drill(bench):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's job in the background ignores it
     main(drill)

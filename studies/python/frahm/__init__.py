@@ -15,7 +15,8 @@ The interpreter is free while frahm computes.
 
 from ._frahm import ResumeRefused, StudyError
 from .dataset import names, open
-from .identification import Estimate, Identification
+from .estimate import Estimate
+from .identification import Identification
 from .point import Point
 from .response import Response
 from .running import Result

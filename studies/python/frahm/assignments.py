@@ -6,8 +6,10 @@ from typing import Any, Callable, Iterable, Mapping, Union
 
 import numpy as np
 
-Value = Union[float, str]
-"""A number in the parameter's usual unit, or a text with a unit: 600, "600 rpm"."""
+from .estimate import Estimate
+
+Value = Union[float, str, Estimate]
+"""A number in the parameter's usual unit, a text with a unit, or an estimate, which has one: 600, "600 rpm"."""
 
 
 def assignments(values: Mapping[str, Value]) -> list[str]:
@@ -27,10 +29,10 @@ def values_of_axis(name: str, given: Any, number: Callable[[str, str], float]) -
     """
     _name(name)
     listed = list(given) if is_axis(given) and not hasattr(given, "__array__") else given
-    if isinstance(listed, str):
+    if isinstance(listed, (str, Estimate)):
         listed = [listed]
     if isinstance(listed, list):
-        listed = [number(name, _text(name, each)) if isinstance(each, str) else each for each in listed]
+        listed = [number(name, _text(name, each)) if isinstance(each, (str, Estimate)) else each for each in listed]
     try:
         array = np.atleast_1d(np.asarray(listed, dtype=float))
     except (TypeError, ValueError, OverflowError):
@@ -83,6 +85,8 @@ def _name(name: Any) -> str:
 
 
 def _text(name: str, value: Any) -> str:
+    if isinstance(value, Estimate):
+        return value.setting(name)
     if isinstance(value, str):
         if "," in plain(value, name):
             raise ValueError(f"{name}={short(value)}: must be one value, without a comma")

@@ -7,30 +7,14 @@ import numpy as np
 
 from . import _frahm
 from .dataset import names, open as open_result
-from .near import Parameters
+from .estimate import Estimate
+from .near import Estimates
 from .running import Result
 
 if TYPE_CHECKING:
     import xarray
 
     from .study import Study
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A parameter found, in SI. NaN: the data do not determine it."""
-
-    value: float
-    low: float  #: ends of the 95 % interval
-    high: float
-    standard_error: float
-    unit: str
-
-    def __float__(self) -> float:
-        return self.value
-
-    def __str__(self) -> str:
-        return f"{self.value:.6g} [{self.low:.6g}, {self.high:.6g}] {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -93,7 +77,7 @@ def identification_of(result: Result, keep: bool) -> Identification:
     return Identification(
         outcome=str(names(found.outcome).values),
         method=found.attrs["method"],
-        estimates=Parameters((name, estimate(name)) for name in estimates),
+        estimates=Estimates((name, estimate(name)) for name in estimates),
         covariance=np.array([found[f"{name}_covariance"].values for name in estimates if f"{name}_covariance" in found]),
         fit=dict(zip(found.attrs.get("records", "").split(), np.atleast_1d(found["nrmse"].values).tolist()))
         if "nrmse" in found else {},

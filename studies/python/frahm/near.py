@@ -33,5 +33,9 @@ class Parameters(Named[Value]):
     what = "parameter"
 
 
+class Estimates(Named[Value]):
+    what = "estimate"
+
+
 class Columns(Named[Value]):
     what = "column"

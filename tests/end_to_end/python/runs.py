@@ -68,6 +68,17 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(OSError, "no_such_folder"):
             frahm.Study.from_dict(MACHINE).run("no_such_folder/x.h5", progress="none")
 
+    def test_a_signal_that_is_ignored_does_not_stop_a_run(self):
+        def interrupt(report):
+            os.kill(os.getpid(), signal.SIGINT)
+
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        try:
+            self.assertEqual(frahm.Study.from_dict(MACHINE).run(self.file, progress=interrupt).outcome, "done")
+            self.assertIs(signal.getsignal(signal.SIGINT), signal.SIG_IGN)
+        finally:
+            signal.signal(signal.SIGINT, before)
+
     def test_an_exception_of_the_function_for_reports_stops_the_run_and_keeps_what_is_computed(self):
         study, kept = frahm.Study.from_dict(LONG), []
 
@@ -353,4 +364,5 @@ class Runs(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's job in the background ignores it
     unittest.main()

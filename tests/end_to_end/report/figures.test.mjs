@@ -1,7 +1,16 @@
 // Figures for papers, without a browser: every figure as SVG, CSV and PDF.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import {
+  existsSync,
+  mkdirSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  statSync,
+  symlinkSync,
+  writeFileSync,
+} from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { csvRows, folderOf, frahm, stored, study } from "./page.mjs";
@@ -64,6 +73,38 @@ test("the numbers of a curve are those of the file", (t) => {
   assert.equal(Number(shown), first);
 });
 
+test("figures replace figures that nobody has changed, and nothing else", (t) => {
+  const folder = folderOf(t),
+    file = join(folder, "h.h5"),
+    figures = join(folder, "figures"),
+    place = (name) => join(figures, `curves_main_amplitude.${name}`);
+  frahm(["run", study("lecture_hysteretic"), "-o", file, "--progress", "none"]);
+  const draw = (code = 0) => frahm(["report", file, "--figures", figures], { code });
+  draw();
+  const all = () => Object.fromEntries(readdirSync(figures).map((name) => [name, readFileSync(join(figures, name))]));
+  draw();
+  const isRefused = (extension, content, why) => {
+    const path = place(extension),
+      kept = readFileSync(path);
+    writeFileSync(path, content);
+    const before = all();
+    assert.match(draw(6), why);
+    assert.deepEqual(all(), before);
+    writeFileSync(path, kept);
+  };
+  isRefused("svg", "<svg>mine</svg>", /curves_main_amplitude\.svg: is there already and is no figure/);
+  isRefused("svg", readFileSync(place("svg"), "utf8").replace("</title>", " of mine</title>"), /changed since/);
+  isRefused("pdf", "%PDF-1.4 mine", /curves_main_amplitude\.pdf: is there already/);
+  isRefused("csv", readFileSync(file), /curves_main_amplitude\.csv: is there already/);
+  rmSync(place("svg"));
+  writeFileSync(join(folder, "mine.svg"), "mine");
+  symlinkSync(join(folder, "mine.svg"), place("svg"));
+  assert.match(draw(6), /curves_main_amplitude\.svg: is a link/);
+  assert.equal(readFileSync(join(folder, "mine.svg"), "utf8"), "mine");
+  rmSync(place("svg"));
+  draw();
+});
+
 test("what cannot be done is said, with its exit code", (t) => {
   const folder = folderOf(t),
     file = join(folder, "h.h5");
@@ -77,7 +118,7 @@ test("what cannot be done is said, with its exit code", (t) => {
     /absent\.h5: there is no such file/,
   );
   assert.match(frahm(["report", study("hundal")], { code: 2 }), /hundal\.toml/);
-  assert.match(frahm(["report", file, "-o", file], { code: 2 }), /is the file that is read/);
+  assert.match(frahm(["report", file, "-o", file], { code: 6 }), /is the file that is read/);
   writeFileSync(join(folder, "taken"), "");
   assert.match(frahm(["report", file, "--figures", join(folder, "taken")], { code: 6 }), /taken/);
   mkdirSync(join(folder, "page.html"));
