@@ -17,7 +17,8 @@ bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
                     const std::filesystem::path& output) {
   std::error_code ignored;  // one that is not there is not the other
   if (from.empty() || !std::filesystem::equivalent(from, output, ignored)) return false;
-  return fingerprint_of_file(output) != plan.fingerprint || is_partial(output);
+  return fingerprint_of_file(output) != plan.fingerprint || is_partial(output) ||
+         !words_changed_since(output, plan.study).empty();
 }
 
 void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::filesystem::path& from,
