@@ -79,7 +79,7 @@ TEST_CASE(
   const std::string study = folder.write("small.toml", small), output = folder / "small.h5";
   REQUIRE(run(study, output).code == 0);
   CHECK_THAT(run(study, output).out, !Catch::Contains("note:"));
-  std::string text = small + "[report]\nheadline = \"main_peak\"\n";
+  std::string text = small + "[report]\nheadline = \"main\"\n";
   const std::string title = "title = \"small\"";
   REQUIRE(text.find(title) != std::string::npos);
   text.replace(text.find(title), title.size(), "title = \"other\"");

@@ -48,14 +48,14 @@ TEST_CASE("what has changed of a map is named: what it records, its axes, how it
 }
 
 TEST_CASE("a coordinate that is new or has another value or unit is named") {
-  const std::string coordinate = "[[coordinate]]\nname = \"twice\"\nvalue = \"2*f\"\nunit = \"Hz\"\n";
-  const std::string kept = map + coordinate;
-  CHECK(changes(map, kept) == Lines{"coordinate \"twice\": new"});
-  CHECK(changes(kept, map) == Lines{"coordinate \"twice\": gone"});
+  const std::string coordinate = "[[coordinate]]\nname = \"twice\"\nvalue = \"2*f\"\nunit = \"N\"\n";
+  const std::string plain = with(map, "dimensionless", "SI"), kept = plain + coordinate;
+  CHECK(changes(plain, kept) == Lines{"coordinate \"twice\": new"});
+  CHECK(changes(kept, plain) == Lines{"coordinate \"twice\": gone"});
   CHECK(changes(kept, with(kept, "2*f", "3*f")) ==
         Lines{"coordinate \"twice\": value: \"2*f\", now \"3*f\""});
-  CHECK(changes(kept, with(kept, "Hz", "rad/s")) ==
-        Lines{"coordinate \"twice\": unit: \"Hz\", now \"rad/s\""});
+  CHECK(changes(kept, with(kept, "\"N\"", "\"kN\"")) ==
+        Lines{"coordinate \"twice\": unit: \"N\", now \"kN\""});
 }
 
 TEST_CASE("lists that have the same tables in another order are named") {
