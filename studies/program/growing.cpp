@@ -64,10 +64,11 @@ std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyP
     return fmt::format("it was begun with --from {}, as that was then: give the same file to go on, {}",
                        source->file, otherwise);
   }
-  return fmt::format(
-      "finish that run first, or make a map of what there is with \"frahm merge {0} --partial\"; then add "
-      "--from {0} -o ANOTHER.h5 to reuse its points; or {1}",
-      output.string(), otherwise);
+  return refusal_advice(
+      changes_since_logs(refused, plan.study, output),
+      fmt::format("finish that run first, or make a map of what there is with \"frahm merge {0} --partial\"; "
+                  "then add --from {0} -o ANOTHER.h5 to reuse its points; or {1}",
+                  output.string(), otherwise));
 }
 
 }  // namespace frahm::studies

@@ -27,9 +27,9 @@ namespace {
 void tell_words(const StudyPlan& plan, const std::filesystem::path& output, std::ostream& out) {
   const std::vector<std::string> changed = words_changed_since(output, plan.study);
   if (changed.empty()) return;
-  const std::string way =
-      plan.study.map() ? fmt::format("--from {} writes it with these and reuses its points", output.string())
-                       : "--fresh computes it anew with these";
+  const std::string way = plan.study.map()
+                              ? fmt::format("add --from {} to write it anew from its points", output.string())
+                              : "--fresh computes it anew";
   fmt::print(out, "note: {} of the study {} of {}: {}\n", fmt::join(changed, " and "),
              changed.size() > 1 ? "are not those" : "is not that", output.string(), way);
 }

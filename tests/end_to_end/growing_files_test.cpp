@@ -87,7 +87,7 @@ TEST_CASE(
   const auto told = run(study, output);
   CHECK(told.code == 0);
   CHECK_THAT(told.out, Catch::Contains("note: title and [report] of the study are not those of " + output +
-                                       ": --from " + output + " writes"));
+                                       ": add --from " + output + " to write it anew"));
   const auto grown = run(study, output, {"--from", output});
   CHECK(grown.code == 0);
   CHECK(points_of(grown.out) == Points{5 * 31, 0});
