@@ -23,7 +23,8 @@ std::string difference(const Fingerprint& kept, const Fingerprint& wanted) {
                        wanted.physics);
   }
   return fmt::format(
-      "is the result of the same physics for other points, samples or another duration ({}, this study has "
+      "is the result of the same physics for other points, coordinates, samples or another duration ({}, "
+      "this study has "
       "{})",
       kept.grid, wanted.grid);
 }

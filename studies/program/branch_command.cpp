@@ -8,6 +8,7 @@
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <map>
 
 #include "engine/output_lock.hpp"
 #include "results/map_writer.hpp"
@@ -78,7 +79,7 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
 // "10 Hz": as the study speaks of the parameter.
 std::string spoken_text(const Study& study, std::size_t parameter, double si) {
   const SpokenValue spoken = spoken_value(study, parameter, si);
-  return fmt::format("{:.10g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
+  return fmt::format("{:.15g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
 }
 
 // Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.
@@ -150,6 +151,46 @@ void check_place(const BranchCommandOptions& options) {
     check_output_is_not_input(*options.output, options.study);
 }
 
+// Where a branch begins: the axes beside it, what --at gives and the parameter followed, by their names.
+// parameters: SI.
+std::string beginning_of(const Study& study, const BranchCommandOptions& options, std::size_t along,
+                         std::span<const double> parameters) {
+  std::vector<std::size_t> told = axis_parameters_beside(study, along);
+  for (const std::string& text : options.at)
+    for (const Assignment& each : parse_assignments(study, "--at", text)) told.push_back(each.parameter);
+  std::map<std::string, std::string> by_name{
+      {study.parameters.list[along].name, spoken_text(study, along, parameters[along])}};
+  for (const std::size_t i : told)
+    by_name[study.parameters.list[i].name] = spoken_text(study, i, parameters[i]);
+  std::vector<std::string> values;
+  for (const auto& [name, value] : by_name) values.push_back(fmt::format("{} = {}", name, value));
+  return fmt::format("begun at {}", fmt::join(values, ", "));
+}
+
+// A line for each choice of a branch, for who reads them.  parameters: SI, where it begins.
+std::string course_of(const Study& study, const BranchCommandOptions& options, std::size_t along,
+                      std::span<const double> parameters, const periodic::BranchWanted& wanted) {
+  const std::string period = wanted.multiple == 0
+                                 ? "that of the response found first"
+                                 : fmt::format("{} times that of the excitation", wanted.multiple);
+  return fmt::format("along {} from {} to {}\n{}\nat most {} points each way\nperiod: {}",
+                     study.parameters.list[along].name, spoken_text(study, along, wanted.low),
+                     spoken_text(study, along, wanted.high), beginning_of(study, options, along, parameters),
+                     wanted.most_points, period);
+}
+
+// All of a branch's course that its points depend on, exactly.  parameters: SI, where it begins.
+std::string exact_course(const Study& study, std::size_t along, std::span<const double> parameters,
+                         const periodic::BranchWanted& wanted) {
+  std::map<std::string, double> by_name;
+  for (std::size_t i = 0; i < parameters.size(); ++i) by_name[study.parameters.list[i].name] = parameters[i];
+  std::string begin;
+  for (const auto& [name, value] : by_name) begin += fmt::format(" {} {}", name, value);
+  return fmt::format("along {} from {} to {}, {} points each way of {} periods, begun at{}",
+                     study.parameters.list[along].name, wanted.low, wanted.high, wanted.most_points,
+                     wanted.multiple, begin);
+}
+
 // Of the same physics as the map of its study, for other points.  parameters: SI, of the branch.
 StudyPlan plan_of_branch(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::vector<double> parameters, const periodic::BranchWanted& wanted) {
@@ -158,13 +199,11 @@ StudyPlan plan_of_branch(const Study& study, const BranchCommandOptions& options
   std::vector<std::string> names;
   for (std::size_t q = 0; q < recorded.size(); ++q) names.push_back(variables[q].name);
   parameters[along] = wanted.start;
-  const std::string course =
-      fmt::format("along {} from {} to {}, {} points each way of {} periods, begun at {}",
-                  study.parameters.list[along].name, wanted.low, wanted.high, wanted.most_points,
-                  wanted.multiple, fmt::join(parameters, " "));
+  const std::string exact = exact_course(study, along, parameters, wanted);
   return {.study = study,
           .set = options.set,
-          .fingerprint = branch_fingerprint(fingerprint(study, {}, names), course)};
+          .fingerprint = branch_fingerprint(fingerprint(study, {}, names), exact),
+          .course = course_of(study, options, along, parameters, wanted)};
 }
 
 // A result that has this branch alone.  parameters: SI, of the branch.

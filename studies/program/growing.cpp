@@ -16,7 +16,8 @@ bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
                     const std::filesystem::path& output) {
   std::error_code ignored;  // one that is not there is not the other
   if (from.empty() || !std::filesystem::equivalent(from, output, ignored)) return false;
-  return fingerprint_of_file(output) != plan.fingerprint || is_partial(output);
+  return fingerprint_of_file(output) != plan.fingerprint || is_partial(output) ||
+         !words_changed_since(output, plan.study).empty();
 }
 
 void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::filesystem::path& from,
@@ -46,10 +47,11 @@ std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyP
     return fmt::format("it was begun with --from {}, as that was then: give the same file to go on, {}",
                        source->file, otherwise);
   }
-  return fmt::format(
-      "finish that run first, or make a map of what there is with \"frahm merge {0} --partial\"; then add "
-      "--from {0} -o ANOTHER.h5 to reuse its points; or {1}",
-      output.string(), otherwise);
+  return refusal_advice(
+      changes_since_logs(refused, plan.study, output),
+      fmt::format("finish that run first, or make a map of what there is with \"frahm merge {0} --partial\"; "
+                  "then add --from {0} -o ANOTHER.h5 to reuse its points; or {1}",
+                  output.string(), otherwise));
 }
 
 }  // namespace frahm::studies

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <ctime>
@@ -21,6 +22,17 @@
 
 namespace frahm::studies {
 namespace {
+
+// Notes that a finished result has another title or [report] than its study.
+void tell_words(const StudyPlan& plan, const std::filesystem::path& output, std::ostream& out) {
+  const std::vector<std::string> changed = words_changed_since(output, plan.study);
+  if (changed.empty()) return;
+  const std::string way = plan.study.map()
+                              ? fmt::format("add --from {} to write it anew from its points", output.string())
+                              : "--fresh computes it anew";
+  fmt::print(out, "note: {} of the study {} of {}: {}\n", fmt::join(changed, " and "),
+             changed.size() > 1 ? "are not those" : "is not that", output.string(), way);
+}
 
 // The logs of the result at `output`, which may have grown from another file than it would now.
 std::vector<std::filesystem::path> logs_of_result(const StudyPlan& plan,
@@ -48,7 +60,7 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
   const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.map() && is_map;
   throw engine::ResumeRefused(
       output, *kept, plan.fingerprint,
-      refusal_advice(changes_since(output, plan.study),
+      refusal_advice(changes_since(output, plan),
                      could_grow
                          ? fmt::format("add --from {} to reuse its points, name another file with -o, or "
                                        "discard what is there with --fresh",
@@ -152,6 +164,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   std::optional<engine::OutputLock> lock;
   if (!begin(plan, run, options.from, lock)) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
+    tell_words(plan, run.output, out);
     return work.tell_what_stands();
   }
   const engine::Summary summary = compute(plan, work.job(), run);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -36,10 +37,17 @@ struct Fact {
   std::vector<Item> items;  // one unless it is a list
 };
 
+// The names in a list of tables or of settings, in their order.
+struct Sequence {
+  std::string name;  // "[[element]]"
+  std::vector<std::string> members;
+};
+
 // All that a study says, in the order of its file.
 struct Facts {
   std::vector<Fact> list;
   std::set<std::string> tables;
+  std::vector<Sequence> sequences;
 
   const Fact* find(const std::string& name) const {
     const auto fact = std::ranges::find(list, name, &Fact::name);
@@ -56,8 +64,7 @@ const StudyKey* key_of(std::string_view section, std::string_view key) {
 
 // What no result depends on.
 bool is_beside(std::string_view section, std::string_view key) {
-  return (section.empty() && (key == "report" || key == "coordinate")) ||
-         (section == "study" && key == "title");
+  return (section.empty() && key == "report") || (section == "study" && key == "title");
 }
 
 const std::string* text_in(const TomlValue& table, std::string_view key) {
@@ -66,10 +73,10 @@ const std::string* text_in(const TomlValue& table, std::string_view key) {
 }
 
 // The unit that a table has for its numbers: of the bounds of a design variable, the values of an axis. That
-// of a measured record is of what is in its file.
+// of a measured record is of what is in its file, that of a coordinate of what its expression gives.
 std::string unit_of_numbers(const TomlValue& table, std::string_view section) {
   const std::string* unit = text_in(table, "unit");
-  return unit && section != "excitation.record" ? *unit : "";
+  return unit && section != "excitation.record" && section != "coordinate" ? *unit : "";
 }
 
 bool is_in_unit_of_table(const StudyKey* key) {
@@ -115,8 +122,7 @@ class FactReading {
     if (key && key->form == KeyForm::tables && entry.value.as<TomlArray>()) {
       add_tables(*entry.value.as<TomlArray>(), path, where);
     } else if (key && key->form == KeyForm::settings && entry.value.as<TomlTable>()) {
-      for (const TomlEntry& each : *entry.value.as<TomlTable>())
-        add_value(each.value, section.empty() ? "parameter " + each.key : name + ": " + each.key, "");
+      add_settings(*entry.value.as<TomlTable>(), section, name);
     } else if (entry.value.as<TomlTable>() && !keys_of(path).empty()) {
       add_table(entry.value, path, name);
     } else {
@@ -124,15 +130,29 @@ class FactReading {
     }
   }
 
+  // The order of parameters changes nothing.
+  void add_settings(const TomlTable& settings, const std::string& section, const std::string& name) {
+    Sequence sequence{.name = name, .members = {}};
+    for (const TomlEntry& each : settings) {
+      add_value(each.value, section.empty() ? "parameter " + each.key : name + ": " + each.key, "");
+      sequence.members.push_back(each.key);
+    }
+    if (!section.empty()) facts_.sequences.push_back(std::move(sequence));
+  }
+
   void add_tables(const TomlArray& list, const std::string& section, const std::string& where) {
+    const bool stands_alone = where.empty() || where.starts_with('[');  // its name tells enough
+    Sequence sequence{.name = fmt::format("{}[[{}]]", stands_alone ? "" : where + ": ", section),
+                      .members = {}};
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (!list[i].as<TomlTable>()) continue;
       const std::string own = name_of(list[i], section, i + 1);
-      const bool stands_alone = where.empty() || where.starts_with('[');  // its name tells enough
       std::string name = stands_alone ? own : fmt::format("{}: {}", where, own);
       if (facts_.tables.contains(name)) name += fmt::format(" ([[{}]] {})", section, i + 1);
       add_table(list[i], section, name);
+      sequence.members.push_back(std::move(name));
     }
+    facts_.sequences.push_back(std::move(sequence));
   }
 
   void add_value(const TomlValue& value, std::string name, const std::string& unit) {
@@ -216,10 +236,31 @@ std::string missing_table(const Fact& fact, const Facts& other) {
   return table == fact.tables.end() ? "" : *table;
 }
 
+// What both have, in the order of the first.
+std::vector<std::string> common_members(const Sequence& of, const Sequence& with) {
+  std::vector<std::string> common;
+  std::ranges::copy_if(of.members, std::back_inserter(common), [&](const std::string& each) {
+    return std::ranges::find(with.members, each) != with.members.end();
+  });
+  return common;
+}
+
+// "" where what both have is in the same order.
+std::string change_of_order(const Sequence& before, const Sequence& after) {
+  const auto was = common_members(before, after), is = common_members(after, before);
+  const auto [first, now] = std::ranges::mismatch(was, is);
+  return first == was.end() ? ""
+                            : fmt::format("the order of {}: {} is now before {}", before.name, *now, *first);
+}
+
+Facts facts_of(const TomlValue& document) {
+  return FactReading().read(document);
+}
+
 }  // namespace
 
 std::vector<std::string> document_changes(const TomlValue& kept, const TomlValue& now) {
-  const Facts before = FactReading().read(kept), after = FactReading().read(now);
+  const Facts before = facts_of(kept), after = facts_of(now);
   std::vector<std::string> changes;
   const auto tell = [&](const std::string& line) {  // a table that is new or gone is told once
     if (std::ranges::find(changes, line) == changes.end()) changes.push_back(line);
@@ -238,7 +279,29 @@ std::vector<std::string> document_changes(const TomlValue& kept, const TomlValue
     const std::string table = missing_table(fact, before);
     tell(table.empty() ? fmt::format("{}: new, {}", fact.name, told(fact)) : table + ": new");
   }
+  for (const Sequence& sequence : before.sequences) {
+    const auto found = std::ranges::find(after.sequences, sequence.name, &Sequence::name);
+    const std::string change = found == after.sequences.end() ? "" : change_of_order(sequence, *found);
+    if (!change.empty()) tell(change);
+  }
   return changes;
+}
+
+std::vector<std::string> rounding_changes(const TomlValue& kept, const TomlValue& now) {
+  const Facts before = facts_of(kept), after = facts_of(now);
+  std::vector<std::string> changes;
+  for (const Fact& fact : before.list) {
+    const Fact* found = after.find(fact.name);
+    if (!found || !is_same(fact, *found)) continue;
+    const auto is_exact = [](const Item& one, const Item& other) { return one.si == other.si; };
+    if (!std::ranges::equal(fact.items, found->items, is_exact))
+      changes.push_back(change_of_unit(fact.name, told(fact), told(*found)));
+  }
+  return changes;
+}
+
+std::string change_of_unit(const std::string& name, const std::string& before, const std::string& after) {
+  return fmt::format("{}: {}, now {}: the same but for rounding", name, before, after);
 }
 
 }  // namespace frahm::studies

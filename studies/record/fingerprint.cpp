@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/rotation.hpp"
@@ -34,6 +35,14 @@ class CanonicalText {
   std::string text_;
 };
 
+// Their order in a study changes nothing.
+std::vector<std::size_t> in_order_of_names(const Parameters& parameters) {
+  std::vector<std::size_t> order(parameters.list.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return parameters.list[i].name; });
+  return order;
+}
+
 void add_parameters(const Study& study, CanonicalText& text) {
   const auto on_axis = [&](std::size_t i) {
     if (study.tune() && study.tune()->band && study.tune()->band->parameter == i) return true;
@@ -41,7 +50,7 @@ void add_parameters(const Study& study, CanonicalText& text) {
                                               [&](const ParameterAxis& axis) { return axis.parameter == i; });
   };
   const auto names = study.parameters.names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (const std::size_t i : in_order_of_names(study.parameters)) {
     const auto& definition = study.parameters.list[i].definition;
     if (on_axis(i)) {
       text.line("parameter {} axis", names[i]);
@@ -303,6 +312,7 @@ std::string physics_hash(const Study& study, std::span<const std::string> quanti
 }
 
 void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
+  const auto names = study.parameters.names();
   for (const GridDimension& dimension : map.dimensions) {
     text.line("dimension {}", dimension.size);
     if (dimension.axes.empty()) text.line("records {}", fmt::join(map.records->names, "\n"));
@@ -314,9 +324,12 @@ void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
   if (map.samples) text.line("samples {} {}", map.samples->dimension, fmt::join(map.samples->quantiles, " "));
   for (const KeptPoint& point : map.output.histories) {
     if (map.records) text.line("orbit under {}", point.record);
-    for (const Assignment& at : point.at) text.line("orbit {} {}", at.parameter, at.value);
+    for (const Assignment& at : point.at) text.line("orbit {} {}", names[at.parameter], at.value);
     text.line("orbit ends");
   }
+  for (const DerivedCoordinate& coordinate : map.coordinates)
+    text.line("coordinate {} [{}] {} called {}", coordinate.name, coordinate.unit,
+              coordinate.value.expression.canonical_text(names), coordinate.long_name);
 }
 
 void add_sweep(const Study& study, const SweepChoice& sweep, CanonicalText& text) {
@@ -324,7 +337,8 @@ void add_sweep(const Study& study, const SweepChoice& sweep, CanonicalText& text
   if (const auto& branches = sweep.branches) {
     text.line("branches {}", study.parameters.list[sweep.axes[branches->axis].parameter].name);
     for (const auto& row : branches->at) {
-      for (const Assignment& at : row) text.line("branches at {} {}", at.parameter, at.value);
+      for (const Assignment& at : row)
+        text.line("branches at {} {}", study.parameters.list[at.parameter].name, at.value);
       text.line("branches row ends");
     }
   }

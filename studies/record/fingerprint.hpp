@@ -18,9 +18,9 @@ struct Tiling {
 // A hash of all that the results of a study depend on (XXH3, 128 bits, as hex).
 // quantities: names of those recorded.
 // physics: network, definitions and values of the parameters (of those on an axis only that they are on one),
-// contents of tables, quantities, precision, version of the solver. grid: the axes' SI values and the tiles,
-// a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files,
-// units and coordinates beside the axes change neither.
+// contents of tables, quantities, precision, version of the solver. grid: the axes' SI values, the
+// coordinates beside them and the tiles, a motion's duration and samples, or a tuning's starts, rules and
+// columns. Titles, comments, names of files, units and the order of the parameters change neither.
 engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
                                 std::span<const std::string> quantities = {});
 

@@ -20,6 +20,8 @@ engine::Fingerprint fingerprint_of(const results::MapReader& map);
 inline constexpr const char* missing_tiles_text = "missing_tiles";
 // The text of /provenance with the identity of the result from which this one grew.
 inline constexpr const char* grown_from_identity = "grown_from_identity";
+// The text of /provenance with the course of a branch.
+inline constexpr const char* branch_course_text = "branch";
 
 // Refuses a study where the name of a result is needed. Throws StudyError.
 void refuse_study(const std::filesystem::path& result);

@@ -90,6 +90,7 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
     texts.emplace_back("grown_from", plan.grown_from->file);
     texts.emplace_back(grown_from_identity, plan.grown_from->identity);
   }
+  if (!plan.course.empty()) texts.emplace_back(branch_course_text, plan.course);
   if (missing > 0) texts.emplace_back(missing_tiles_text, fmt::format("{}", missing));
   if (!failed.empty()) texts.emplace_back("failed_points", fmt::format("{}", fmt::join(failed, "\n")));
   return texts;

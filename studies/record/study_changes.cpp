@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <variant>
 
 #include "results/map_reader.hpp"
 #include "studies/reading/repetition.hpp"
 #include "studies/reading/toml_building.hpp"
+#include "studies/reading/toml_reading.hpp"
+#include "studies/reading/toml_section.hpp"
+#include "studies/reading/toml_writing.hpp"
 #include "studies/record/document_changes.hpp"
+#include "studies/record/finished_file.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
@@ -42,35 +47,97 @@ TomlValue document_of(const Study& study) {
   return document;
 }
 
-std::vector<std::string> changes_of_documents(const Study& kept, const Study& now) {
+// Of two studies that are the same but for rounding: the axes that have another unit, and other numbers.
+std::vector<std::string> changed_roundings(const Study& kept, const Study& now,
+                                           const TomlValue& kept_document, const TomlValue& document) {
+  std::vector<std::string> changes;
+  const bool have_axes = kept.map() && now.map() && kept.map()->axes.size() == now.map()->axes.size();
+  for (std::size_t a = 0; have_axes && a < now.map()->axes.size(); ++a) {
+    const ParameterAxis &before = kept.map()->axes[a], &after = now.map()->axes[a];
+    if (before.unit == after.unit || before.si_values == after.si_values) continue;
+    changes.push_back(
+        change_of_unit(fmt::format("axis \"{}\": its unit", now.parameters.list[after.parameter].name),
+                       before.unit.empty() ? "SI" : before.unit, after.unit.empty() ? "SI" : after.unit));
+  }
+  for (std::string& change : rounding_changes(kept_document, document))
+    if (!change.starts_with("axis ")) changes.push_back(std::move(change));
+  return changes;
+}
+
+// None where the studies say the same.
+std::vector<std::string> told_changes(const Study& kept, const Study& now) {
   if (kept.kind() != now.kind())
     return {fmt::format("kind: \"{}\", now \"{}\"", kind_name(kept.kind()), kind_name(now.kind()))};
-  return document_changes(document_of(kept), document_of(now));
+  const TomlValue kept_document = document_of(kept), document = document_of(now);
+  const std::vector<std::string> changes = document_changes(kept_document, document);
+  return changes.empty() ? changed_roundings(kept, now, kept_document, document) : changes;
+}
+
+constexpr const char* nothing_told =
+    "nothing in the study itself: the content of a file that it reads, or what this version of frahm "
+    "computes";
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// The courses of two branches, or that one of two results is a branch.
+std::vector<std::string> changes_of_branch(const results::MapReader& result, const StudyPlan& now) {
+  const bool was_branch = result.has_group("branches") && result.layout().axes.empty();
+  const bool is_branch = !now.course.empty();
+  if (was_branch && !is_branch) return {fmt::format("a branch, now {}", kind_noun(now.study.kind()))};
+  if (is_branch && !was_branch && !result.layout().axes.empty()) return {"a sweep, now a branch"};
+  std::vector<std::string> changes;
+  const std::vector<std::string> before = lines_of(provenance_text(result, branch_course_text)),
+                                 after = lines_of(now.course);
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+    if (before[i] != after[i]) changes.push_back(fmt::format("{}, now {}", before[i], after[i]));
+  return changes;
 }
 
 }  // namespace
 
 std::vector<std::string> study_changes(const Study& kept, const Study& now) {
-  std::vector<std::string> changes = changes_of_documents(kept, now);
-  if (changes.empty())
-    changes.emplace_back(
-        "nothing in the study itself: the content of a file that it reads, or what this version of frahm "
-        "computes");
+  std::vector<std::string> changes = told_changes(kept, now);
+  if (changes.empty()) changes.emplace_back(nothing_told);
   return changes;
 }
 
-std::vector<std::string> changes_since(const std::filesystem::path& result, const Study& now) {
+std::vector<std::string> changes_since(const std::filesystem::path& result, const StudyPlan& now) {
+  const results::MapReader reader(result);
+  std::vector<std::string> changes = changes_of_branch(reader, now);
   try {
-    return study_changes(read_stored_study(results::MapReader(result), result).study, now);
+    for (std::string& change : told_changes(read_stored_study(reader, result).study, now.study))
+      changes.push_back(std::move(change));
   } catch (const StudyError&) {  // its tables may be gone, or it was written by another version
-    return {};
+    return changes;
   }
+  if (changes.empty()) changes.emplace_back(nothing_told);
+  return changes;
+}
+
+std::vector<std::string> words_changed_since(const std::filesystem::path& result, const Study& now) {
+  const auto in = [](const TomlValue* table, std::string_view key) {
+    const TomlEntry* entry = table ? find_entry(*table, key) : nullptr;
+    return entry ? &entry->value : nullptr;
+  };
+  const auto text = [](const TomlValue* value) { return value ? toml_in_line(*value) : ""; };
+  const TomlValue kept = read_toml({result.string(), provenance_text(results::MapReader(result), "study")});
+  const TomlValue document = read_toml(now.source);
+  std::vector<std::string> changed;
+  if (text(in(in(&kept, "study"), "title")) != text(in(in(&document, "study"), "title")))
+    changed.emplace_back("title");
+  if (text(in(&kept, "report")) != text(in(&document, "report"))) changed.emplace_back("[report]");
+  return changed;
 }
 
 bool has_same_document(const std::filesystem::path& result, const Study& now) {
   if (!std::filesystem::exists(result)) return false;
   try {
-    return changes_of_documents(read_stored_study(results::MapReader(result), result).study, now).empty();
+    return told_changes(read_stored_study(results::MapReader(result), result).study, now).empty();
   } catch (const StudyError&) {  // written by another version
     return false;
   }

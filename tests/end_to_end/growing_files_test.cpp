@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <tuple>
 
 #include "tests/end_to_end/grown_maps.hpp"
 #include "tests/end_to_end/runs.hpp"
@@ -48,6 +49,50 @@ TEST_CASE("a file of another grid at the output is refused with the words that m
     CHECK(outcome.code == 0);
     CHECK_THAT(outcome.out, Catch::Contains("computed already"));
   }
+}
+
+TEST_CASE("a coordinate that is changed or new is written by --from, which computes no point") {
+  const Folder folder;
+  const auto beside = [](const std::string& value) {
+    return small + "[[coordinate]]\nname = \"twice\"\nvalue = \"" + value + "\"\n";
+  };
+  const std::string study = folder.write("small.toml", small), output = folder / "small.h5";
+  REQUIRE(run(study, output).code == 0);
+  for (const auto& [text, told, last] :
+       {std::tuple{beside("2*f"), "coordinate \"twice\": new", 2.0},
+        std::tuple{beside("3*f"), "coordinate \"twice\": value: \"2*f\", now \"3*f\"", 3.0}}) {
+    folder.write("small.toml", text);
+    const auto refused = run(study, output);
+    CHECK(refused.code == 5);
+    CHECK_THAT(refused.err, Catch::Contains(told) && Catch::Contains("add --from " + output));
+    const auto grown = run(study, output, {"--from", output});
+    CHECK(grown.code == 0);
+    CHECK(points_of(grown.out) == Points{5 * 31, 0});
+    CHECK(read_map(output).coordinate("twice").back() == last);
+  }
+}
+
+TEST_CASE(
+    "a title or [report] that is changed is told by a rerun and written by --from, without a point "
+    "computed") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), output = folder / "small.h5";
+  REQUIRE(run(study, output).code == 0);
+  CHECK_THAT(run(study, output).out, !Catch::Contains("note:"));
+  std::string text = small + "[report]\nheadline = \"main\"\n";
+  const std::string title = "title = \"small\"";
+  REQUIRE(text.find(title) != std::string::npos);
+  text.replace(text.find(title), title.size(), "title = \"other\"");
+  folder.write("small.toml", text);
+  const auto told = run(study, output);
+  CHECK(told.code == 0);
+  CHECK_THAT(told.out, Catch::Contains("note: title and [report] of the study are not those of " + output +
+                                       ": add --from " + output + " to write it anew"));
+  const auto grown = run(study, output, {"--from", output});
+  CHECK(grown.code == 0);
+  CHECK(points_of(grown.out) == Points{5 * 31, 0});
+  CHECK_THAT(run(study, output).out, Catch::Contains("computed already") && !Catch::Contains("note:"));
+  CHECK(read_map(output).layout.title == "other");
 }
 
 TEST_CASE("a map never takes the place of one it grows from that has points it has not") {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
@@ -309,18 +310,30 @@ TEST_CASE("a branch replaces itself alone, any other result only when asked") {
   };
   const auto refused = branch(map);  // of the same study
   CHECK(refused.code == 5);
-  CHECK_THAT(refused.err, Catch::Contains("same physics for other points") && Catch::Contains("--fresh"));
+  CHECK_THAT(refused.err, Catch::Contains("same physics for other points") &&
+                              Catch::Contains("\n  a sweep, now a branch\n") && Catch::Contains("--fresh"));
   CHECK(text_of(map) == before);
 
   const std::string output = folder / "branch.h5";
   CHECK(branch(output).code == 0);
   CHECK(branch(output).code == 0);
-  for (const Names& other :
-       {Names{"--at", "f=0.5"}, Names{"--to", "1.5"}, Names{"--set", "zeta=0.1"}, Names{"--steps", "100"}}) {
-    INFO(other.front());
-    CHECK(branch(output, other).code == 5);
+  for (const auto& [option, value, told] :
+       {std::array{"--at", "f=0.5", "\n  begun at f = 0.2, r = 0.2, now begun at f = 0.5, r = 0.2\n"},
+        std::array{"--to", "1.5", "\n  along r from 0.2 to 2, now along r from 0.2 to 1.5\n"},
+        std::array{"--set", "zeta=0.1", "\n  parameter zeta: 0.05, now 0.1\n"},
+        std::array{
+            "--multiple", "2",
+            "\n  period: that of the response found first, now period: 2 times that of the excitation\n"},
+        std::array{"--steps", "100",
+                   "\n  at most 2000 points each way, now at most 100 points each way\n"}}) {
+    INFO(option);
+    const auto other = branch(output, {option, value});
+    CHECK(other.code == 5);
+    CHECK_THAT(other.err, Catch::Contains(told) && !Catch::Contains("nothing in the study"));
   }
-  CHECK(run(study, output).code == 5);  // the map of the same study is another result too
+  const auto other_result = run(study, output);  // the map of the same study is another result too
+  CHECK(other_result.code == 5);
+  CHECK_THAT(other_result.err, Catch::Contains("\n  a branch, now a sweep\n"));
   CHECK(frahm({"run", study, "-o", folder / "new.h5", "--from", output}).code == 2);
   CHECK(branch(output, {"--at", "f=0.5", "--fresh"}).code == 0);
   CHECK(branch(output, {"--at", "f=0.5"}).code == 0);

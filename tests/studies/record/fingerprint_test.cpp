@@ -33,7 +33,27 @@ TEST_CASE(
   CHECK(of(with(base, "\"2*zeta\"", "\" 2 * ( zeta ) \"")) == of(base));
   CHECK(of(with(base, "zeta = 0.05", "zeta = 5e-2")) == of(base));
   CHECK(of(with(base, "f = 0.2", "f = 0.3")) == of(base));
-  CHECK(of(base + "[[coordinate]]\nname = \"twice\"\nvalue = \"2*f\"\n") == of(base));
+}
+
+TEST_CASE("a coordinate beside an axis is part of the grid: its name, its value and its unit") {
+  const std::string coordinate = "[[coordinate]]\nname = \"twice\"\nvalue = \"2*f\"\nunit = \"1\"\n";
+  const auto kept = of(base + coordinate);
+  CHECK(kept.grid != of(base).grid);
+  CHECK(kept.physics == of(base).physics);
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"twice", "double"}, {"2*f", "3*f"}, {"unit = \"1\"", "long_name = \"twice f\""}}) {
+    INFO(from << " -> " << to);
+    CHECK(of(with(base + coordinate, from, to)).grid != kept.grid);
+    CHECK(of(with(base + coordinate, from, to)).physics == kept.physics);
+  }
+  CHECK(of(with(base + coordinate, "2*f", " 2 * f ")) == kept);
+}
+
+TEST_CASE("the order of the parameters changes nothing, that of the axes the grid") {
+  const std::string orbits = "[output]\norbits = [{ f = 0, r = 0.1 }]\n";
+  const std::string swapped = with(base + orbits, "f = 0.2\nzeta = 0.05\n", "zeta = 0.05\nf = 0.2\n");
+  CHECK(of(swapped) == of(base + orbits));
+  CHECK(of(oscillator() + axis("r", 0.1, 2, 11) + axis("f", 0, 1, 5)).grid != of(base).grid);
 }
 
 TEST_CASE("whatever changes a number changes the physics") {
