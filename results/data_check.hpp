@@ -4,8 +4,11 @@
 
 namespace frahm::results {
 
-// Reads all numbers of a group and of those within it, chunk by chunk, as each carries a checksum. Throws
-// StoreError, naming the dataset, for the first that cannot be read.
-void check_data(const hdf5::Group& group);
+// Whether every chunk was written, as of all finished results, or some of the map are not, as of a part.
+enum class Completeness { whole, part };
+
+// Reads all numbers of a group and of those within it, chunk by chunk, as each carries a checksum, and
+// compares the lists of dimensions. Throws StoreError, naming the dataset, for the first that cannot be read.
+void check_data(const hdf5::Group& group, Completeness completeness);
 
 }  // namespace frahm::results

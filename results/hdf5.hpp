@@ -73,7 +73,7 @@ class Object {
 struct Storage {
   Type type = Type::float64;
   Shape shape = {};      // empty: a single number
-  Shape chunk = {};      // shuffle, deflate and fletcher32 by chunk; empty: contiguous, unfiltered
+  Shape chunk = {};      // shuffle, deflate and fletcher32 by chunk; a single number: none
   bool growing = false;  // its first dimension is unlimited (needs a chunk)
 };
 
@@ -84,6 +84,8 @@ class Dataset : public Object {
   Shape shape() const;
   Shape chunk() const;                 // empty if contiguous
   std::uint64_t count_chunks() const;  // that are stored; 0 if contiguous
+  // Throws StoreError where the chunk that begins there is not stored: it would be read as missing values.
+  void require_chunk(std::span<const std::uint64_t> start) const;
 
   // A box of the dataset. Start and count are empty for a single number.
   void write(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
@@ -109,6 +111,8 @@ class Dataset : public Object {
   // Follows the list of its scales, as other readers do: HDF5's high-level library trusts it. Throws
   // StoreError for a list that is none.
   void check_scales() const;
+  // The scales along a dimension by that list: their address(); 0 for one of no object.
+  std::vector<std::uint64_t> scales_along(unsigned axis) const;
   std::uint64_t address() const;  // in the file
 
  private:

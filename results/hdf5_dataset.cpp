@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
 
@@ -44,6 +45,8 @@ Handle creation_properties(const Storage& storage, const std::string& path) {
                             missing_elements(storage.type, 1).data()),
           path, what);
   if (!storage.chunk.empty()) set_filters(properties.get(), storage, path);
+  // A single number has no chunks; within the dataset's header it lies under that header's checksum.
+  if (storage.shape.empty()) checked(H5Pset_layout(properties.get(), H5D_COMPACT), path, what);
   return properties;
 }
 
@@ -175,6 +178,20 @@ void Dataset::check_scales() const {
     checked(H5DSiterate_scales(id(), static_cast<unsigned>(d), nullptr, visit, nullptr), where_, what);
 }
 
+std::vector<std::uint64_t> Dataset::scales_along(unsigned axis) const {
+  const std::string what = "cannot read the list of its scales";
+  if (checked(H5Aexists(id(), "DIMENSION_LIST"), where_, what) == 0) return {};
+  std::vector<std::uint64_t> addresses;
+  const auto visit = [](hid_t, unsigned, hid_t scale, void* list) -> herr_t {
+    H5O_info_t info;
+    const bool is_known = H5Oget_info2(scale, &info, H5O_INFO_BASIC) >= 0;
+    static_cast<std::vector<std::uint64_t>*>(list)->push_back(is_known ? info.addr : 0);
+    return 0;
+  };
+  checked(H5DSiterate_scales(id(), axis, nullptr, visit, &addresses), where_, what);
+  return addresses;
+}
+
 std::vector<Dataset::Use> Dataset::uses() const {
   const std::string what = "cannot read where it is attached";
   constexpr const char* list_name = "REFERENCE_LIST";
@@ -214,6 +231,13 @@ std::uint64_t Dataset::count_chunks() const {
   hsize_t count = 0;
   checked(H5Dget_num_chunks(id(), space.get(), &count), where_, "cannot count its chunks");
   return count;
+}
+
+void Dataset::require_chunk(std::span<const std::uint64_t> start) const {
+  print_no_errors();
+  hsize_t bytes = 0;
+  if (H5Dget_chunk_storage_size(id(), sizes(start), &bytes) >= 0 && bytes > 0) return;
+  throw StoreError(where_, fmt::format("its chunk at [{}] is not there", fmt::join(start, ", ")), "");
 }
 
 std::vector<double> Dataset::read_all() const {

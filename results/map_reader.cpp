@@ -184,8 +184,8 @@ std::vector<Column> MapReader::columns(const std::string& group) const {
   return read_columns(file_.root().group(group));
 }
 
-void MapReader::check_data() const {
-  results::check_data(file_.root());
+void MapReader::check_data(Completeness completeness) const {
+  results::check_data(file_.root(), completeness);
 }
 
 }  // namespace frahm::results

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "results/data_check.hpp"
 #include "results/hdf5.hpp"
 #include "results/layout.hpp"
 
@@ -47,7 +48,7 @@ class MapReader {
   std::vector<Column> columns(const std::string& group) const;
 
   // Reads all numbers of the file. Throws StoreError, naming the dataset, for the first that are damaged.
-  void check_data() const;
+  void check_data(Completeness completeness) const;
 
  private:
   void read_map(const hdf5::Group& group);

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "results/store_error.hpp"
 #include "studies/map/value_match.hpp"
 #include "studies/reading/units.hpp"
 
@@ -31,6 +33,30 @@ std::vector<double> si_values(const Parameter& parameter, const results::Coordin
   const double factor = si_factor(parameter, units.parse(coordinate.unit));
   for (double& value : values) value *= factor;
   return values;
+}
+
+// What is wrong with the values of a parameter on its axis of a map; nothing if they are the study's.
+std::optional<std::string> axis_damage(const Study& study, const ParameterAxis& own,
+                                       const results::Axis& axis, const UnitSystem& units) {
+  // Values in another unit, and powers from another library, differ in their last digits.
+  constexpr double rounding = 1e-13;
+  const Parameter& parameter = study.parameters.list[own.parameter];
+  const auto found = std::ranges::find(axis.coordinates, parameter.name, &results::Coordinate::name);
+  if (found == axis.coordinates.end()) return fmt::format("\"{}\" is not on its axis", parameter.name);
+  std::vector<double> values;
+  try {
+    values = si_values(parameter, *found, units);
+  } catch (const UnitError& error) {
+    return fmt::format("axis \"{}\": {}", parameter.name, error.what());
+  }
+  for (std::size_t i = 0; i < own.si_values.size(); ++i) {
+    if (i < values.size() && std::abs(values[i] - own.si_values[i]) <= rounding * std::abs(own.si_values[i]))
+      continue;
+    return fmt::format("axis \"{}\": value {} is {} where its study has {} {}", parameter.name, i + 1,
+                       i < values.size() ? fmt::format("{}", found->values[i]) : "missing", own.values[i],
+                       own.unit);
+  }
+  return std::nullopt;
 }
 
 std::vector<CommonParameter> parameters_on(const Study& study, const results::Axis& earlier,
@@ -133,6 +159,26 @@ std::uint64_t points_off_grid(const std::vector<EarlierDimension>& dimensions) {
     common *= reached.size();
   }
   return all - common;
+}
+
+void refuse_other_axes(const Study& study, const results::MapLayout& map, const std::string& file,
+                       const std::string& advice) {
+  const auto fail = [&](const std::string& what) {
+    throw results::StoreError(file, "the result is damaged: " + what, advice);
+  };
+  const auto& dimensions = study.map()->dimensions;
+  if (map.axes.size() != dimensions.size())
+    fail(fmt::format("it has {} axes where its study has {}", map.axes.size(), dimensions.size()));
+  const UnitSystem units;
+  for (std::size_t d = 0; d < dimensions.size(); ++d) {
+    const results::Axis& axis = map.axes[d];
+    if (axis.name != dimensions[d].name || axis.size != dimensions[d].size)
+      fail(fmt::format("axis {} is \"{}\" of {} values where its study has \"{}\" of {}", d + 1, axis.name,
+                       axis.size, dimensions[d].name, dimensions[d].size));
+    for (const std::size_t a : dimensions[d].axes) {
+      if (const auto problem = axis_damage(study, study.map()->axes[a], axis, units)) fail(*problem);
+    }
+  }
 }
 
 }  // namespace frahm::studies

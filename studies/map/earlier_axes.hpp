@@ -30,4 +30,10 @@ std::uint64_t points_off_grid(const std::vector<EarlierDimension>& dimensions);
 std::vector<EarlierDimension> match_axes(const Study& study, const results::MapLayout& earlier,
                                          const std::string& file);
 
+// Throws results::StoreError where the axes of a map made of the study are others than the study's: their
+// names, order, sizes or values (in any unit), which a checksum would not show in files of earlier versions.
+// advice: what to do, for the message.
+void refuse_other_axes(const Study& study, const results::MapLayout& map, const std::string& file,
+                       const std::string& advice);
+
 }  // namespace frahm::studies

@@ -173,7 +173,8 @@ std::vector<double> coordinate_values(const Study& study, const DerivedCoordinat
   for (std::size_t i = 0; i < values.size(); ++i) {
     set_along(*study.map(), coordinate.dimension, i, parameters);
     study.parameters.complete(std::span<double>(parameters));
-    values[i] = coordinate.value.expression.evaluate(std::span<const double>(parameters));
+    values[i] =
+        coordinate.value.expression.evaluate(std::span<const double>(parameters)) / coordinate.si_factor;
   }
   return values;
 }

@@ -7,14 +7,17 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
 #include "engine/fingerprint.hpp"
+#include "engine/io_error.hpp"
 #include "results/store_error.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/earlier_file.hpp"
 #include "studies/map/record_check.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -27,6 +30,20 @@ void refuse_another_physics(const MapPlan& plan, const results::MapReader& earli
   if (kept.physics == plan.fingerprint.physics) return;
   throw engine::ResumeRefused(file, kept, plan.fingerprint,
                               "none of its points can be taken over; leave --from out to compute them all");
+}
+
+// Samples of a file that is no longer beside the result leave nothing to compare with.
+void refuse_other_axes_than_stored(const results::MapReader& earlier, const std::filesystem::path& file,
+                                   const std::string& advice) {
+  std::optional<StoredStudy> stored;
+  try {
+    stored = read_stored_study(earlier, file);
+  } catch (const StudyError&) {
+    return;
+  } catch (const engine::IoError&) {
+    return;
+  }
+  refuse_other_axes(stored->study, earlier.layout(), file.string(), advice);
 }
 
 std::size_t variable_named(const results::MapLayout& layout, const std::string& name,
@@ -86,6 +103,9 @@ void KnownPoints::take(const MapBox& box, std::span<double> values, std::vector<
 }
 
 void KnownPoints::check(std::uint64_t first, std::uint64_t step) {
+  constexpr const char* advice = "without --from all points are computed anew";
+  refuse_damage(file_, advice);
+  refuse_other_axes_than_stored(reader_, file_, advice);
   std::vector<double> values;
   std::vector<char> known;
   for (std::uint64_t tile = first; tile < plan_.grid.tiles(); tile += step) {

@@ -32,7 +32,9 @@ const Meaning exit_codes[] = {
     {"4", "exit code: stopped, by a signal or the time budget; the same command resumes"},
     {"5",
      "exit code: refused to mix results of different studies; nothing was changed. Another -o, or --fresh"},
-    {"6", "exit code: a file or stream could not be read or written, a file is in the way of an output, or memory ran out"},
+    {"6",
+     "exit code: a file or stream could not be read or written, a file is in the way of an output, or memory "
+     "ran out"},
     {"7", "exit code: a tuning or fit did not converge; the best so far is in the file"},
     {"8", "exit code: the self-check of frahm verify failed on this machine"},
     {"done", "outcome of a run in Python: exit code 0, done"},
@@ -116,6 +118,7 @@ std::string told(const periodic::QuantityRow& row) {
   const std::string name = owner.empty() ? row.suffix : fmt::format("{}_{}", owner, row.suffix);
   std::string meaning = row.meaning;
   if (const auto place = meaning.find("{}"); place != std::string::npos) meaning.replace(place, 2, owner);
+  if (const auto gap = meaning.find("  "); gap != std::string::npos) meaning.erase(gap, 1);  // of no owner
   std::string text = fmt::format("{}: quantity [{}]: {}", name, row.unit, meaning);
   for (const periodic::FlagMeaning& flag : row.flags)
     text += fmt::format("{}{} {}", &flag == row.flags.data() ? ". " : ", ", flag.value, flag.meaning);
@@ -276,6 +279,8 @@ std::vector<std::string> all_words() {
 }  // namespace
 
 int explain_command(const std::string& word, std::ostream& out) {
+  if (word.empty())
+    throw StudyError(rules::unknown_name, "explain: the word is empty: give a key, unit, quantity or status");
   std::vector<std::string> found;
   for (auto* called : {keys_called, types_called, choices_called, quantities_called}) {
     for (std::string& text : called(word)) found.push_back(std::move(text));

@@ -13,6 +13,7 @@
 #include "engine/io_error.hpp"
 #include "engine/stop_request.hpp"
 #include "engine/tile_index.hpp"
+#include "studies/map/earlier_axes.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/growing.hpp"
 #include "studies/program/refusal_advice.hpp"
@@ -85,7 +86,10 @@ bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::file
     if (!is_done()) return true;
     lock.reset();  // another process has finished it while this one waited
   }
-  refuse_damage(run.output, "--fresh computes it anew");
+  const std::string advice = "--fresh computes it anew";
+  refuse_damage(run.output, advice);
+  if (plan.study.map())
+    refuse_other_axes(plan.study, results::MapReader(run.output).layout(), run.output.string(), advice);
   remove_leftovers(plan, run.output);
   return false;
 }

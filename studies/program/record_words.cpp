@@ -209,6 +209,21 @@ constexpr RecordWord all_words[] = {
     {"*_fitted", of_fit, "the model where the data are"},
     {"*_residual", of_fit, "measured less fitted"},
     {"row", of_fit, "number of a row of the method's table"},
+    {"damping_ratio", of_fit, "estimate: damping ratio"},
+    {"damping_ratio_first_order", of_fit, "estimate: damping ratio, exact to first order of itself"},
+    {"damping_ratio_line", of_fit, "estimate: damping ratio by the fitted line"},
+    {"friction_displacement_line", of_fit, "estimate: friction force over stiffness by the fitted line"},
+    {"zeta", of_fit, "of each row: damping ratio, to first order"},
+    {"zeta_exact", of_fit, "of each row: damping ratio of the viscous mass with these half-power points"},
+    {"increase", of_fit, "of each row: zeta over that of the first row, less one"},
+    {"offset", of_fit, "estimate: what the sensor shows at rest"},
+    {"intercept", of_fit, "estimate: value of a fitted line at zero"},
+    {"energy_loss", of_fit, "estimate: energy dissipated in a cycle"},
+    {"storage_stiffness", of_fit, "estimate: stiffness in phase with the displacement"},
+    {"equivalent_damping", of_fit, "estimate: damping of the same loss in a cycle"},
+    {"equivalent_friction", of_fit, "estimate: friction force of the same loss in a cycle"},
+    {"label", "data of an identification", "text told beside a row"},
+    {"doubtful", "data of an identification", "1 marks a row that is left out"},
 };
 
 bool fits(std::string_view pattern, std::string_view name) {

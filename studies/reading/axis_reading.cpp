@@ -247,6 +247,7 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
     if (const TomlValue* unit = section.find("unit")) {
       if (const auto read = read_unit(context, section.where(), *unit)) {
         coordinate.unit = read->text;
+        coordinate.si_factor = factor_of_label(study.parameters, section.text("value"), *read);
         wanted = wanted_by_label(*read);
       }
     }

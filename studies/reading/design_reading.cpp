@@ -194,6 +194,7 @@ void read_column(TuneReading& reading, const TomlValue& table, std::size_t numbe
   if (const TomlValue* value = section.find("unit")) {
     if (const auto unit = read_unit(reading.context, section.where(), *value)) {
       column.unit = unit->text;
+      column.si_factor = factor_of_label(reading.study.parameters, section.text("value"), *unit);
       wanted = wanted_by_label(*unit);
     }
   }

@@ -8,10 +8,13 @@
 namespace frahm::studies {
 namespace {
 
-// A parameter has the dimension of its unit. Plain numbers, tables, and quantities beyond mechanics may have
-// any.
+// A parameter has the dimension of its unit, a table's that of its header. Plain numbers, tables without one
+// and quantities beyond mechanics may have any.
 ExpressionDimension dimension_of_number(const Parameter& parameter) {
-  const std::optional<Unit>& unit = parameter.unit ? parameter.unit : parameter.unit_of_range;
+  const auto* table = std::get_if<TableOf>(&parameter.definition);
+  const std::optional<Unit>& unit = table            ? table->unit
+                                    : parameter.unit ? parameter.unit
+                                                     : parameter.unit_of_range;
   if (!unit || unit->foreign) return {};
   return exponents_of(*unit);
 }

@@ -33,8 +33,9 @@ std::string shown(const CsvRow& row) {
 
 }  // namespace
 
-LookupTable read_lookup_table(const std::filesystem::path& path) {
-  LookupTable table;
+ReadTable read_lookup_table(const std::filesystem::path& path) {
+  ReadTable read;
+  LookupTable& table = read.table;
   bool header_possible = true;
   for (const CsvRow& row : read_csv(path, path.string())) {
     const auto fail = [&](std::string_view problem) {
@@ -45,7 +46,11 @@ LookupTable read_lookup_table(const std::filesystem::path& path) {
     const std::optional<Point> point = as_point(row);
     if (!point && !header_possible) fail("both columns must be numbers");
     header_possible = false;
-    if (!point) continue;
+    if (!point) {
+      read.x_unit = column_name(row.cells[0]).unit;
+      read.y_unit = column_name(row.cells[1]).unit;
+      continue;
+    }
     if (!table.x.empty() && point->x <= table.x.back())
       fail("the first column must increase from row to row");
     table.x.push_back(point->x);
@@ -53,7 +58,7 @@ LookupTable read_lookup_table(const std::filesystem::path& path) {
   }
   if (table.x.size() < 2)
     throw StudyError(rules::too_few, "{}: a table needs at least two rows of numbers", path.string());
-  return table;
+  return read;
 }
 
 }  // namespace frahm::studies

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "solvers/algebra/no_value.hpp"
@@ -31,9 +33,15 @@ inline Dual LookupTable::at(const Dual& value) const {
   return {std::lerp(y[i - 1], y[i], part), slope * value.derivative};
 }
 
+// A table with what its header says of its columns: "x [mm]".
+struct ReadTable {
+  LookupTable table;
+  std::optional<std::string> x_unit, y_unit;
+};
+
 // Reads the two columns x, y of a CSV file. Columns are separated by comma, semicolon or tab; a first row
 // that is not numeric is a header; empty lines and lines that start with # do not count. Throws StudyError
 // with file and line for anything else, for x that does not increase and for less than two rows.
-LookupTable read_lookup_table(const std::filesystem::path& path);
+ReadTable read_lookup_table(const std::filesystem::path& path);
 
 }  // namespace frahm::studies

@@ -36,7 +36,8 @@ struct GridDimension {
 // rpm).
 struct DerivedCoordinate {
   std::string name, long_name;
-  std::string unit = "1";  // of the number the expression gives; not converted
+  std::string unit = "1";  // of the number in the file
+  double si_factor = 1.0;  // the expression gives si_factor x that number: factor_of_label()
   StudyValue value;
   std::size_t dimension = 0;  // index in MapChoice::dimensions
 };

@@ -28,6 +28,53 @@ Parameter named_parameter(const StudyContext& context, const TomlEntry& entry) {
   return parameter;
 }
 
+// The unit in the header of a column of a table.
+std::optional<Unit> unit_of_header(const StudyContext& context, const std::string& file,
+                                   const std::optional<std::string>& text) {
+  if (!text) return std::nullopt;
+  if (context.dimensionless) {
+    if (*text == "1") return std::nullopt;
+    throw StudyError(rules::unit_in_dimensionless,
+                     "{}: the unit \"{}\" of its header has no meaning in a dimensionless study", file,
+                     *text);
+  }
+  try {
+    return context.units.parse(*text);
+  } catch (const UnitError& error) {
+    throw StudyError(error.rule(), "{}: its header: {}", file, error.what());
+  }
+}
+
+void convert(std::vector<double>& values, const Parameter& parameter, const std::optional<Unit>& unit) {
+  if (!unit) return;
+  const double factor = si_factor(parameter, *unit);
+  for (double& value : values) {
+    value *= factor;
+    if (!std::isfinite(value)) throw UnitError(rules::not_finite, "a value in SI units is out of range");
+  }
+}
+
+// By the units of its header; without one the numbers are SI.
+void convert_table(const StudyContext& context, Parameters& parameters, std::size_t index) {
+  Parameter& parameter = parameters.list[index];
+  auto& table = std::get<TableOf>(parameter.definition);
+  const auto fail = [&](const UnitError& error, const std::string& name) {
+    throw context.source.error_at(error.rule(), parameter.position, "{}: {}: its column of \"{}\": {}",
+                                  where_is(parameter.name), table.file, name, error.what());
+  };
+  const Parameter& of = parameters.list[table.of];
+  try {
+    convert(table.table.x, of, table.of_unit);
+  } catch (const UnitError& error) {
+    fail(error, of.name);
+  }
+  try {
+    convert(table.table.y, parameter, table.unit);
+  } catch (const UnitError& error) {
+    fail(error, parameter.name);
+  }
+}
+
 TableOf read_table(const StudyContext& context, const Parameters& parameters, const std::string& where,
                    const TomlValue& value, const std::filesystem::path& folder) {
   const TomlSection section(context.source, value, where, "{ table, of }");
@@ -41,7 +88,10 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   }
   table.of = *index;
   try {
-    table.table = read_lookup_table(folder / table.file);
+    const ReadTable read = read_lookup_table(folder / table.file);
+    table.table = read.table;
+    table.of_unit = unit_of_header(context, table.file, read.x_unit);
+    table.unit = unit_of_header(context, table.file, read.y_unit);
   } catch (const StudyError& error) {
     section.fail(error.rule(), "table", "{}", error.what());
   }
@@ -151,7 +201,9 @@ Parameters read_parameters(const StudyContext& context, const TomlValue& root,
 }
 
 void convert_parameters(const StudyContext& context, Parameters& parameters) {
-  for (Parameter& parameter : parameters.list) {
+  for (std::size_t i = 0; i < parameters.list.size(); ++i) {
+    Parameter& parameter = parameters.list[i];
+    if (std::holds_alternative<TableOf>(parameter.definition)) convert_table(context, parameters, i);
     if (!parameter.unit) continue;
     try {
       auto& value = std::get<double>(parameter.definition);

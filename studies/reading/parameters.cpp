@@ -74,4 +74,17 @@ double si_factor(const Parameter& parameter, const Unit& unit) {
   return unit.scale;
 }
 
+double factor_of_label(const Parameters& parameters, const std::string& text, const Unit& unit) {
+  const auto index = parameters.find(text);
+  if (!index) return 1.0;
+  const Parameter& parameter = parameters.list[*index];
+  if (!parameter.unit && !parameter.unit_of_range && !parameter.quantity && !parameter.in_frequency)
+    return 1.0;
+  try {
+    return si_factor(parameter, unit);
+  } catch (const UnitError&) {  // of another dimension, which the check of dimensions tells
+    return 1.0;
+  }
+}
+
 }  // namespace frahm::studies

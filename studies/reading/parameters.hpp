@@ -20,6 +20,8 @@ struct TableOf {
   std::string file;  // as the study names it
   LookupTable table;
   std::size_t of = 0;  // index of the other parameter
+  std::optional<Unit> of_unit = std::nullopt,
+                      unit = std::nullopt;  // of the columns, as the file's header says
 };
 
 // A named parameter of a study: a number [SI], an expression of others, or a table over one.
@@ -87,5 +89,10 @@ void Parameters::complete(std::span<Number> values) const {
 // Throws UnitError for a wrong dimension, if the parameter's is known, and where it is unclear whether 1/s,
 // Hz or 1/min count cycles.
 double si_factor(const Parameter& parameter, const Unit& unit);
+
+// The same for a value that is written out in a unit, text: as the study has it. 1 but where it is a
+// parameter alone whose dimension is known: an expression may have converted its number already, as
+// omega/(2*pi) in Hz.
+double factor_of_label(const Parameters& parameters, const std::string& text, const Unit& unit);
 
 }  // namespace frahm::studies

@@ -140,6 +140,17 @@ std::string quantile_name(double share) {
   return name;
 }
 
+// from = "300 rpm" is the start of a range, not a file of samples.
+static void refuse_text_for_number(const StudyContext& context, const TomlValue& table) {
+  if (!is_of_file(table) || !find_entry(table, "parameter")) return;
+  const TomlEntry* from = find_entry(table, "from");
+  if (!from) return;
+  throw context.source.error_at(rules::wrong_type, from->value.position,
+                                "[[axis]]: from: {} is no number; of a parameter it is one, in the unit of "
+                                "`unit`, of samples a CSV file without `parameter`",
+                                described(from->value));
+}
+
 bool is_axis_of_samples(const TomlValue& table) {
   return is_of_file(table) || find_entry(table, "samples") || find_entry(table, "of") ||
          find_entry(table, "fixed_from");
@@ -148,6 +159,7 @@ bool is_axis_of_samples(const TomlValue& table) {
 void read_axis_of_samples(const StudyContext& context, const TomlValue& table, std::size_t number,
                           const std::filesystem::path& folder, DataFiles data, Study& study) {
   const bool of_file = is_of_file(table);
+  refuse_text_for_number(context, table);
   const TomlSection section(context.source, table, fmt::format("[[axis]] {}", number), "axis",
                             of_file ? "file" : "samples");
   SampleReading reading{

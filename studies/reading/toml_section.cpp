@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_keys.hpp"
@@ -95,10 +97,19 @@ double TomlSection::number(std::string_view key) const {
   return number;
 }
 
+// 181.0 is one too, as in JSON Schema.
+static std::optional<std::int64_t> whole_number(const TomlValue& value) {
+  constexpr double largest = 9007199254740992.0;  // 2^53
+  if (const auto* integer = value.as<std::int64_t>()) return *integer;
+  const auto* number = value.as<double>();
+  if (!number || std::trunc(*number) != *number || std::abs(*number) > largest) return std::nullopt;
+  return static_cast<std::int64_t>(*number);
+}
+
 std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwise) const {
   const TomlValue* value = find(key);
   if (!value) return otherwise;
-  const auto* integer = value->as<std::int64_t>();
+  const auto integer = whole_number(*value);
   if (!integer) fail(rules::wrong_type, key, "expected a whole number, found {}", described(*value));
   check_limits(key, static_cast<double>(*integer), "a whole number ");
   return *integer;

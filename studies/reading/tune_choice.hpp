@@ -69,7 +69,8 @@ struct ScenarioChoice {
 struct ColumnChoice {
   std::string name;
   StudyValue value;
-  std::string unit = "1";  // of the number the expression gives; not converted
+  std::string unit = "1";  // of the number in the file
+  double si_factor = 1.0;  // the expression gives si_factor x that number: factor_of_label()
   double lower = -kInfinity;
   double upper = kInfinity;
 };

@@ -233,8 +233,9 @@ void add_assessment(const Study& study, CanonicalText& text) {
     if (design.rule) text.line("rule {}", design.rule->expression.canonical_text(names));
   }
   for (const ColumnChoice& column : study.tune()->columns)
-    text.line("column {} {} {} {}", column.name, column.value.expression.canonical_text(names), column.lower,
-              column.upper);
+    text.line("column {} {} {} {}{}", column.name, column.value.expression.canonical_text(names),
+              column.lower, column.upper,
+              column.si_factor == 1.0 ? "" : fmt::format(" {}", column.si_factor));
   for (const ScenarioChoice& scenario : study.tune()->scenarios) text.line("named {}", scenario.name);
 }
 

@@ -47,9 +47,12 @@ void require_result(const std::filesystem::path& path) {
                         "completes it, frahm merge --partial makes a file of what there is of a map");
 }
 
+bool is_part(const results::MapReader& map) {
+  return !provenance_text(map, missing_tiles_text).empty();
+}
+
 bool is_partial(const std::filesystem::path& path) {
-  return std::filesystem::exists(path) &&
-         !provenance_text(results::MapReader(path), missing_tiles_text).empty();
+  return std::filesystem::exists(path) && is_part(results::MapReader(path));
 }
 
 void refuse_link(const std::filesystem::path& output) {
@@ -120,7 +123,8 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
 
 void refuse_damage(const std::filesystem::path& result, const std::string& advice) {
   try {
-    results::MapReader(result).check_data();
+    const results::MapReader reader(result);
+    reader.check_data(is_part(reader) ? results::Completeness::part : results::Completeness::whole);
   } catch (const results::StoreError& reason) {
     throw results::StoreError(reason.what(), "the result is damaged", advice);
   }

@@ -33,6 +33,9 @@ void refuse_folder(const std::filesystem::path& result);
 // for a study.
 void require_result(const std::filesystem::path& path);
 
+// Whether a result was made by merge --partial.
+bool is_part(const results::MapReader& map);
+
 // Whether there is a file made by merge --partial.
 bool is_partial(const std::filesystem::path& path);
 
@@ -50,8 +53,8 @@ void require_folder_of(const std::filesystem::path& output);
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study,
                         std::optional<bool> fresh = std::nullopt);
 
-// Reads all of a result that is taken for finished. Throws results::StoreError if it is damaged, with what to
-// do.
+// Reads all of a result, of a part of one what there is. Throws results::StoreError if it is damaged, with
+// what to do.
 void refuse_damage(const std::filesystem::path& result, const std::string& advice);
 
 // A text of /provenance; empty if there is none of this name.

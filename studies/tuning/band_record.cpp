@@ -72,7 +72,8 @@ void add_schedules(const TuningAbout& about, GroupColumns& columns) {
 }
 
 void add_column(const TuningAbout& about, const ColumnChoice& column, GroupColumns& columns) {
-  const std::vector<double> values = along_band(about, of_formula(column.value));
+  std::vector<double> values = along_band(about, of_formula(column.value));
+  for (double& value : values) value /= column.si_factor;
   columns.add(column.name, column.unit, "beside the schedule: " + column.name, about.band, values);
   std::vector<double> flags;
   for (const double value : values) flags.push_back(range_flag(column, value));

@@ -1,9 +1,11 @@
 // Every variable of a result, of each kind of study, is a word that frahm explain knows.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <set>
 
 #include "results/map_reader.hpp"
+#include "studies/reading/study.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/small_tunings.hpp"
@@ -79,6 +81,20 @@ TEST_CASE("every variable of a trade-off with a schedule and a column is explain
       folder,
       folder.write("front.toml", heading + absorber + minimax + front + of_f + schedule + of_zeta + column),
       {"r", "f", "f_0", "f_1", "f_2", "zeta", "gear"});
+}
+
+TEST_CASE("every estimate and row of every method of identification is explained") {
+  const Folder folder;
+  const std::filesystem::path studies = std::filesystem::path(FRAHM_SOURCE_DIR) / "studies/identification";
+  for (const auto& entry : std::filesystem::directory_iterator(studies)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with("identify_") || entry.path().extension() != ".toml") continue;
+    Names own;
+    for (const std::string& parameter : ::frahm::studies::read_study(entry.path()).parameters.names()) {
+      own.insert(parameter);
+    }
+    check_explained(folder, entry.path(), own);
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "results/hdf5.hpp"
+#include "results/map_chunk.hpp"
 #include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
 #include "results/store_error.hpp"
@@ -302,6 +303,36 @@ TEST_CASE(
   CHECK(std::filesystem::file_size(directory / "stderr") == 0);
 }
 
+TEST_CASE("a chunk of a finished map that is not there is damage, of a part it is none") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "map.h5";
+  const MapLayout layout{.axes = {{.name = "p", .size = 4}},
+                         .variables = {{.name = "x", .unit = "m", .long_name = "x"}},
+                         .chunk = {2}};
+  {
+    MapWriter writer(path, layout);
+    MapChunk chunk(layout);
+    chunk.begin({2});
+    chunk.put(0, {{2}, {2}}, std::vector{1.0, 2.0});
+    writer.write_chunk(chunk.encoded());
+    writer.finish();
+  }
+  const MapReader reader(path);
+  reader.check_data(Completeness::part);
+  CHECK_THAT(refusal([&] { reader.check_data(Completeness::whole); }),
+             Contains("map.h5:/x: its chunk at [0] is not there"));
+}
+
+TEST_CASE("axes and coordinates are in chunks with a checksum, single numbers in a header with one") {
+  const TemporaryDirectory directory;
+  sample::write(directory / "map.h5");
+  const hdf5::File file = hdf5::File::open(directory / "map.h5");
+  for (const std::string& name : file.root().dataset_names()) {
+    INFO(name);
+    CHECK(!file.root().dataset(name).chunk().empty());
+  }
+}
+
 TEST_CASE("a damaged chunk is an error, not a wrong number") {
   const TemporaryDirectory directory;
   const auto path = directory / "map.h5";
@@ -323,6 +354,6 @@ TEST_CASE("a damaged chunk is an error, not a wrong number") {
   const MapReader reader(path);
   CHECK_THAT(refusal([&] { reader.read(0, origin, shape); }),
              Contains("map.h5:/x: cannot read") && Contains("Fletcher32"));
-  CHECK_THAT(refusal([&] { reader.check_data(); }),
+  CHECK_THAT(refusal([&] { reader.check_data(Completeness::whole); }),
              Contains("map.h5:/x: cannot read") && Contains("Fletcher32"));
 }

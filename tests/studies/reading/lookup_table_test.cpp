@@ -68,10 +68,18 @@ TEST_CASE("a table is read from a file with or without a header") {
        {"omega,I\n15,4.72\n35,12.9\n", "15;4.72\n35;12.9", "# schedule\n\n15\t4.72\r\n35 , 12.9\r\n"}) {
     INFO(text);
     const TemporaryFile file(text);
-    const LookupTable table = read_lookup_table(file.path());
+    const LookupTable table = read_lookup_table(file.path()).table;
     CHECK(table.x == std::vector<double>{15.0, 35.0});
     CHECK(table.y == std::vector<double>{4.72, 12.9});
   }
+}
+
+TEST_CASE("the header of a table gives the units of its columns") {
+  const TemporaryFile file("speed [rad/s],k [kN/m]\n10,1\n20,2\n");
+  const auto read = read_lookup_table(file.path());
+  CHECK(read.x_unit == "rad/s");
+  CHECK(read.y_unit == "kN/m");
+  CHECK(read.table.y == std::vector<double>{1.0, 2.0});
 }
 
 TEST_CASE("a wrong table is told with file and line") {
