@@ -9,6 +9,7 @@
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 
