@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "results/map_reader.hpp"
@@ -28,7 +30,7 @@ void check_explained(const Folder& folder, const std::string& study, const Names
   for (const std::string& group : reader.groups()) {
     for (const auto& column : reader.columns(group)) names.insert(column.variable.name);
   }
-  CHECK(names.size() > 10);
+  CHECK(names.size() > 5);  // a half-power identification has six
   for (const std::string& name : names) {
     if (own.contains(name)) continue;
     const auto explained = frahm({"explain", name});
@@ -83,12 +85,16 @@ TEST_CASE("every variable of a trade-off with a schedule and a column is explain
       {"r", "f", "f_0", "f_1", "f_2", "zeta", "gear"});
 }
 
-TEST_CASE("every estimate and row of every method of identification is explained") {
+// Those alone that need no result of another: together they have every method of the studies.
+TEST_CASE("every estimate and row of the methods of identification is explained") {
   const Folder folder;
   const std::filesystem::path studies = std::filesystem::path(FRAHM_SOURCE_DIR) / "studies/identification";
   for (const auto& entry : std::filesystem::directory_iterator(studies)) {
     const std::string name = entry.path().filename();
     if (!name.starts_with("identify_") || entry.path().extension() != ".toml") continue;
+    std::ifstream file(entry.path());
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    if (text.find(".h5\"") != std::string::npos) continue;
     Names own;
     for (const std::string& parameter : ::frahm::studies::read_study(entry.path()).parameters.names()) {
       own.insert(parameter);
