@@ -327,6 +327,34 @@ def check_reruns(bench):
     print(f"reruns of a result damaged in each of {len(names)} datasets", flush=True)
 
 
+def check_flipped_reruns(bench, data):
+    """One bit is another: a rerun, and a map that takes its points, have the numbers of the whole file or say that it is damaged."""
+    place = bench.place(small_map(bench))
+    commands = {OUTPUT: (), "other.h5": ("-o", "other.h5", "--from", OUTPUT)}
+
+    def table(result):
+        outcome = place.call("export", result, "-o", "-")
+        assert outcome.code == 0, outcome
+        return outcome.out
+
+    place.write(OUTPUT, data)
+    whole = table(OUTPUT)
+    refused = 0
+    for at in random.Random(SEED).sample(range(len(data)), 80):
+        flipped = bytearray(data)
+        flipped[at] ^= 1 << at % 8
+        for result, options in commands.items():
+            place.write(OUTPUT, bytes(flipped))
+            outcome = place.call("run", "study.toml", "--progress", "none", *(options or ("-o", OUTPUT)))
+            assert outcome.code in (0, 5, 6), f"byte {at}: {outcome}"
+            assert outcome.code != 0 or table(result) == whole, f"byte {at}: {result} has other numbers: {outcome}"
+            refused += outcome.code != 0
+            if result != OUTPUT and os.path.exists(place.path(result)):
+                os.remove(place.path(result))
+    assert refused > 20, refused
+    print(f"80 flipped bits under a rerun and --from: {refused} refusals, no other number", flush=True)
+
+
 def drill(bench):
     assert shutil.which("h5repack"), "hdf5-tools is needed"
     results = {"map": made(bench, small_map(bench)), "decay": made(bench, decay_study(bench))}
@@ -334,6 +362,7 @@ def drill(bench):
     check_made_to_harm(bench, results["map"])
     check_embedded_study(bench, results["map"])
     check_reruns(bench)
+    check_flipped_reruns(bench, results["map"])
     check_cuts(bench, results["map"])
     check_flips(bench, results)
 
