@@ -9,6 +9,7 @@
 
 #include "engine/io_error.hpp"
 #include "studies/reading/study_source.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -28,11 +29,14 @@ void check_is_hdf5(const std::filesystem::path& path) {
     throw engine::IoError(path, "is not an HDF5 file; --from needs the result of a map");
 }
 
-// The kind of a result without a map.
-std::string_view kind_of(const results::MapReader& result) {
-  if (result.has_group("identification")) return "an identification";
-  if (result.has_group("optimum")) return "a tuning";
-  if (result.has_group("branches")) return "a branch";
+std::string_view words_of(ResultKind kind) {
+  switch (kind) {
+    case ResultKind::map: return "a map";
+    case ResultKind::branch: return "a branch";
+    case ResultKind::tuning: return "a tuning";
+    case ResultKind::identification: return "an identification";
+    case ResultKind::motion: break;
+  }
   return "one motion";
 }
 
@@ -41,9 +45,10 @@ std::string_view kind_of(const results::MapReader& result) {
 results::MapReader open_earlier_map(const std::filesystem::path& file) {
   check_is_hdf5(file);
   results::MapReader result(file);
-  if (!result.layout().axes.empty()) return result;
+  const ResultKind kind = kind_of(result);
+  if (kind == ResultKind::map) return result;
   throw StudyError(rules::wrong_option, "--from {}: is {}, not a map: there is no point to take over",
-                   file.string(), kind_of(result));
+                   file.string(), words_of(kind));
 }
 
 }  // namespace frahm::studies

@@ -104,7 +104,7 @@ void KnownPoints::take(const MapBox& box, std::span<double> values, std::vector<
 
 void KnownPoints::check(std::uint64_t first, std::uint64_t step) {
   constexpr const char* advice = "without --from all points are computed anew";
-  refuse_damage(file_, advice);
+  refuse_damage(reader_, advice);
   refuse_other_axes_than_stored(reader_, file_, advice);
   std::vector<double> values;
   std::vector<char> known;

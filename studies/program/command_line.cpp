@@ -337,10 +337,11 @@ void add_completion(CLI::App& program, CommandLine& line) {
 }
 
 void add_help(CLI::App& program, CommandLine& line) {
-  std::string commands = "help";
-  for (const CLI::App* each : program.get_subcommands(nullptr)) commands += "|" + each->get_name();
+  std::string words = "help";
+  for (const CLI::App* each : program.get_subcommands(nullptr)) words += "|" + each->get_name();
+  for (const std::string& kind : starter_kinds()) words += "|" + kind;
   CLI::App* command = add_command(program, "help", "print the help of a command", help::help_examples);
-  command->add_option("COMMAND", line.word, "else that of frahm itself")->type_name(commands);
+  command->add_option("COMMAND", line.word, "else that of frahm itself")->type_name(words);
   command->callback([&line] {
     line.action = [&line](std::ostream& out) {
       out << help_for(line.commands, line.word);

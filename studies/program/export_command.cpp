@@ -10,7 +10,6 @@
 #include <ostream>
 
 #include "results/map_reader.hpp"
-#include "results/store_error.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/identification/identified_study.hpp"
 #include "studies/map/beside_samples.hpp"
@@ -178,9 +177,8 @@ void write_table(const results::MapReader& map, const std::string& asked, std::o
 void check_group(const results::MapReader& map, const ExportOptions& options) {
   const std::vector<std::string> groups = map.groups();
   if (options.group.empty() || std::ranges::find(groups, options.group) != groups.end()) return;
-  throw results::StoreError(
-      options.file, fmt::format("has no group \"{}\"{}", options.group, suggestion(options.group, groups)),
-      "");
+  throw StudyError(rules::wrong_option, "--group: {} has no group \"{}\"{}", options.file.string(),
+                   options.group, suggestion(options.group, groups));
 }
 
 void write_export(const ExportOptions& options, const results::MapReader& map, std::ostream& out) {
@@ -262,6 +260,7 @@ int export_command(const ExportOptions& options, std::ostream& out) {
         options.file.string(), options.file.stem().string() + ".h5");
   require_result(options.file);
   const results::MapReader map(options.file);
+  refuse_damage(map, "frahm run --fresh computes it anew");
   if (options.output == "-") {
     write_export(options, map, out);
     return 0;

@@ -17,8 +17,9 @@ bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
                     const std::filesystem::path& output) {
   std::error_code ignored;  // one that is not there is not the other
   if (from.empty() || !std::filesystem::equivalent(from, output, ignored)) return false;
-  return fingerprint_of_file(output) != plan.fingerprint || is_partial(output) ||
-         !words_changed_since(output, plan.study).empty();
+  const results::MapReader standing(output);
+  return fingerprint_of(standing) != plan.fingerprint || is_part(standing) ||
+         !words_changed_since(standing, output, plan.study).empty();
 }
 
 void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::filesystem::path& from,
@@ -27,7 +28,7 @@ void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::fil
   const std::uint64_t lost = earlier.off_grid();
   if (lost == 0 || !std::filesystem::equivalent(from, output, ignored)) return;
   throw engine::ResumeRefused(
-      output, *fingerprint_of_file(output), plan.fingerprint,
+      output, fingerprint_of(results::MapReader(output)), plan.fingerprint,
       fmt::format("it holds {} points that this grid has not, and they would be lost: name another file "
                   "with -o; --from {} reuses its points there too",
                   lost, from.string()));

@@ -112,7 +112,7 @@ std::string help_for(const Command& tree, const std::string& name) {
 std::string unknown_command(const Command& tree, const std::string& name) {
   if (is_kind(name))
     return fmt::format("unknown command \"{}\"; frahm run computes a study of any kind", name);
-  std::vector<std::string> names;
+  std::vector<std::string> names = starter_kinds();
   for (const Command& each : tree.commands) names.push_back(each.last_word());
   return fmt::format("unknown command \"{}\"{}", name, suggestion(name, names));
 }

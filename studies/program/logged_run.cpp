@@ -25,8 +25,9 @@ namespace frahm::studies {
 namespace {
 
 // Notes that a finished result has another title or [report] than its study.
-void tell_words(const StudyPlan& plan, const std::filesystem::path& output, std::ostream& out) {
-  const std::vector<std::string> changed = words_changed_since(output, plan.study);
+void tell_words(const StudyPlan& plan, const results::MapReader& finished,
+                const std::filesystem::path& output, std::ostream& out) {
+  const std::vector<std::string> changed = words_changed_since(finished, output, plan.study);
   if (changed.empty()) return;
   const std::string way = plan.study.map()
                               ? fmt::format("add --from {} to write it anew from its points", output.string())
@@ -35,33 +36,38 @@ void tell_words(const StudyPlan& plan, const std::filesystem::path& output, std:
              changed.size() > 1 ? "are not those" : "is not that", output.string(), way);
 }
 
-// The logs of the result at `output`, which may have grown from another file than it would now.
-std::vector<std::filesystem::path> logs_of_result(const StudyPlan& plan,
-                                                  const std::filesystem::path& output) {
-  const engine::LogHeader own =
-      plan.header_of_logs(provenance_text(results::MapReader(output), grown_from_identity));
+// The logs of the finished result at `output`, which may have grown from another file than it would now.
+std::vector<std::filesystem::path> logs_of(const results::MapReader& finished, const StudyPlan& plan,
+                                           const std::filesystem::path& output) {
+  const engine::LogHeader own = plan.header_of_logs(provenance_text(finished, grown_from_identity));
   std::vector<std::filesystem::path> logs = engine::find_logs(output);
   std::erase_if(logs, [&](const auto& log) { return engine::study_of_log(log) != own; });
   return logs;
 }
 
-void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output) {
-  if (!logs_of_result(plan, output).empty() || std::filesystem::exists(engine::lock_path(output))) {
+void remove_leftovers(const results::MapReader& finished, const StudyPlan& plan,
+                      const std::filesystem::path& output) {
+  if (!logs_of(finished, plan, output).empty() || std::filesystem::exists(engine::lock_path(output))) {
     const engine::OutputLock lock(output);
-    engine::remove_logs(logs_of_result(plan, output));
+    engine::remove_logs(logs_of(finished, plan, output));
   }
   if (engine::find_logs(output).empty()) remove_study_notes(output);
 }
 
-bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
-  const auto kept = fingerprint_of_file(output);
-  if (!kept) return false;
-  if (*kept == plan.fingerprint) return !is_partial(output);
-  const bool is_map = !results::MapReader(output).layout().axes.empty();
-  const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.map() && is_map;
+// The whole result of this plan that stands at `output`; none where there is none, or a part. Throws
+// ResumeRefused where another result stands there.
+std::optional<results::MapReader> finished_result(const StudyPlan& plan,
+                                                  const std::filesystem::path& output) {
+  if (!std::filesystem::exists(output)) return std::nullopt;
+  results::MapReader standing(output);
+  const engine::Fingerprint kept = fingerprint_of(standing);
+  if (kept == plan.fingerprint)
+    return is_part(standing) ? std::nullopt : std::optional(std::move(standing));
+  const bool could_grow = kept.physics == plan.fingerprint.physics && plan.study.map() &&
+                          kind_of(standing) == ResultKind::map;
   throw engine::ResumeRefused(
-      output, *kept, plan.fingerprint,
-      refusal_advice(changes_since(output, plan),
+      output, kept, plan.fingerprint,
+      refusal_advice(changes_since(standing, output, plan),
                      could_grow
                          ? fmt::format("add --from {} to reuse its points, name another file with -o, or "
                                        "discard what is there with --fresh",
@@ -69,29 +75,31 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
                          : ""));
 }
 
-// Whether there is anything to compute: false if the file of this study exists already; then the logs left by
-// a run that was killed before it removed them are removed. from: the result from which a map grows; empty:
-// none. lock: takes the lock of the output, unless the run is one shard of several.
-bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::filesystem::path& from,
-           std::optional<engine::OutputLock>& lock) {
-  const auto is_done = [&] {
-    return !run.fresh && !grows_in_place(plan, from, run.output) && is_finished(plan, run.output);
+// The finished result that leaves nothing to compute, or none; then the logs left by a run that was killed
+// before it removed them are removed. from: the result from which a map grows; empty: none. lock: takes the
+// lock of the output if there is something to compute, unless the run is one shard of several.
+std::optional<results::MapReader> begin(const StudyPlan& plan, const engine::RunOptions& run,
+                                        const std::filesystem::path& from,
+                                        std::optional<engine::OutputLock>& lock) {
+  const auto what_stands = [&] {
+    const bool is_replaced = run.fresh || grows_in_place(plan, from, run.output);
+    return is_replaced ? std::nullopt : finished_result(plan, run.output);
   };
   if (run.fresh && run.shard.count > 1 && std::filesystem::exists(run.output))
     throw engine::IoError(run.output,
                           "is there already, and one shard made afresh cannot replace it: remove it first");
-  if (!is_done()) {
-    if (run.shard.count > 1) return true;
+  std::optional<results::MapReader> finished = what_stands();
+  if (!finished && run.shard.count == 1) {
     lock.emplace(run.output);
-    if (!is_done()) return true;
-    lock.reset();  // another process has finished it while this one waited
+    finished = what_stands();
+    if (finished) lock.reset();  // another process has finished it while this one waited
   }
+  if (!finished) return finished;
   const std::string advice = "--fresh computes it anew";
-  refuse_damage(run.output, advice);
-  if (plan.study.map())
-    refuse_other_axes(plan.study, results::MapReader(run.output).layout(), run.output.string(), advice);
-  remove_leftovers(plan, run.output);
-  return false;
+  refuse_damage(*finished, advice);
+  if (plan.study.map()) refuse_other_axes(plan.study, finished->layout(), run.output.string(), advice);
+  remove_leftovers(*finished, plan, run.output);
+  return finished;
 }
 
 // Computes the missing tiles of a plan's job, with the note of its study beside the logs.
@@ -166,9 +174,9 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};
   check_result_place(run.output, options.study, run.fresh);
   std::optional<engine::OutputLock> lock;
-  if (!begin(plan, run, options.from, lock)) {
+  if (const auto finished = begin(plan, run, options.from, lock)) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
-    tell_words(plan, run.output, out);
+    tell_words(plan, *finished, run.output, out);
     return work.tell_what_stands();
   }
   const engine::Summary summary = compute(plan, work.job(), run);

@@ -83,14 +83,13 @@ void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
 
 // A result of another study is not replaced, unless the map grows from it and replaces it.
 void refuse_another_result(const MergeOptions& options, const StudyPlan& plan) {
-  const auto kept = fingerprint_of_file(options.output);
-  if (!kept || *kept == plan.fingerprint) return;
-  const bool grows_from_it =
-      plan.grown_from &&
-      identity_of(results::MapReader(options.output).texts("provenance")) == plan.grown_from->identity;
-  if (grows_from_it) return;
+  if (!std::filesystem::exists(options.output)) return;
+  const results::MapReader there(options.output);
+  const engine::Fingerprint kept = fingerprint_of(there);
+  if (kept == plan.fingerprint) return;
+  if (plan.grown_from && identity_of(there.texts("provenance")) == plan.grown_from->identity) return;
   throw engine::ResumeRefused(
-      options.output, *kept, plan.fingerprint,
+      options.output, kept, plan.fingerprint,
       "it is not replaced: give merge another file to make, or remove this one first");
 }
 
@@ -136,14 +135,15 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
 // that are still there. Such logs, left by a process killed while removing them, are removed.
 bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> logs, std::ostream& out) {
   check_result_place(options.output, {});
-  const auto kept = fingerprint_of_file(options.output);
-  if (!kept || is_partial(options.output)) return false;
+  if (!std::filesystem::exists(options.output)) return false;
+  const results::MapReader there(options.output);
+  if (is_part(there)) return false;
   std::erase_if(logs, [](const auto& log) { return !std::filesystem::exists(log); });
   for (const auto& log : logs) {
     const auto study = engine::study_of_log(log);
-    if (study && study->fingerprint != *kept) return false;
+    if (study && study->fingerprint != fingerprint_of(there)) return false;
   }
-  refuse_damage(options.output, logs.empty() ? "frahm run --fresh computes it anew"
+  refuse_damage(there, logs.empty() ? "frahm run --fresh computes it anew"
                                              : "remove it, and merge makes it anew of the shard logs");
   engine::remove_logs(logs);
   remove_notes(options, logs);

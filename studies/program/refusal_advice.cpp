@@ -27,9 +27,12 @@ std::string refusal_advice(const std::vector<std::string>& changes, const std::s
 }
 
 void refuse_another_result(const std::filesystem::path& output, const StudyPlan& plan) {
-  const auto kept = fingerprint_of_file(output);
-  if (!kept || *kept == plan.fingerprint) return;
-  throw engine::ResumeRefused(output, *kept, plan.fingerprint, refusal_advice(changes_since(output, plan)));
+  if (!std::filesystem::exists(output)) return;
+  const results::MapReader standing(output);
+  const engine::Fingerprint kept = fingerprint_of(standing);
+  if (kept == plan.fingerprint) return;
+  throw engine::ResumeRefused(output, kept, plan.fingerprint,
+                              refusal_advice(changes_since(standing, output, plan)));
 }
 
 std::vector<std::string> changes_since_logs(const engine::ResumeRefused& refused, const Study& now,

@@ -49,6 +49,7 @@ int report_command(const ReportOptions& options, std::ostream& out) {
     throw StudyError(rules::wrong_option, "--output: --figures writes into its own folder, no page");
   require_result(options.file);
   const results::MapReader result(options.file);
+  refuse_damage(result, "frahm run --fresh computes it anew");
   if (options.figures.empty()) {
     write_page(options, result, out);
   } else {

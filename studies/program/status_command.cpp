@@ -64,7 +64,7 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   const results::MapLayout& layout = map.layout();
   const std::uint64_t points = points_of(layout);
   fmt::print(out, "{}: {}\n{:<22} {}\n", file.string(),
-             is_partial(file) ? "a part of the result" : "finished", "title", layout.title);
+             is_part(map) ? "a part of the result" : "finished", "title", layout.title);
   for (const results::Axis& axis : layout.axes) {
     fmt::print(out, "{:<22} {}: {} point{}\n", "axis", axis.name, axis.size, axis.size == 1 ? "" : "s");
   }
@@ -107,8 +107,8 @@ FoundLogs logs_beside(const std::filesystem::path& file) {
 
 // Whether a result is a part that was made of these logs.
 bool is_part_of(const std::filesystem::path& file, const engine::LogHeader& logs) {
-  if (!is_partial(file)) return false;
   const results::MapReader part(file);
+  if (!is_part(part)) return false;
   const engine::Fingerprint study = fingerprint_of(part);
   const std::string source = provenance_text(part, grown_from_identity);
   return logs.fingerprint == (source.empty() ? study : grown_fingerprint(study, source));

@@ -149,7 +149,10 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
   if (const TomlValue* value = section.find("band")) {
     const TomlSection range(reading.context.source, *value, fmt::format("{}: band", section.where()),
                             "constraint.band");
-    limit.band = read_range(range, reading.choice.band ? reading.choice.band->unit.si_factor : 1.0);
+    const auto& whole = reading.choice.band;  // if there is none, require_band() says so
+    const UsualUnit unit = whole && range.find("unit") ? read_parameter_unit(reading, range, whole->parameter)
+                                                       : whole.value_or(BandChoice{}).unit;
+    limit.band = read_range(range, unit.si_factor);
   }
   reading.choice.limits.push_back(std::move(limit));
 }

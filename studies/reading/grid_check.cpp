@@ -77,14 +77,18 @@ std::optional<std::size_t> sample_at(const Study& study, std::span<const double>
   return std::nullopt;
 }
 
+// "400 rpm": a parameter in its unit.
+std::string spoken_text(const Study& study, std::size_t parameter, double si) {
+  const SpokenValue spoken = spoken_value(study, parameter, si);
+  return fmt::format("{:.6g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
+}
+
 // " at omega = 400 rpm, I = 6.36 kg": the numbers on which it depends.
 std::string place_name(const Study& study, const Checked& checked, std::span<const double> parameters) {
   std::string text;
   for (const std::size_t i : study.parameters.inputs_of(checked.reads)) {
-    const UsualUnit unit = usual_unit(study, i);
-    const bool shown = !unit.text.empty() && unit.text != "1";
-    text += fmt::format("{} {} = {:.6g}{}{}", text.empty() ? " at" : ",", study.parameters.list[i].name,
-                        parameters[i] / unit.si_factor, shown ? " " : "", shown ? unit.text : "");
+    text += fmt::format("{} {} = {}", text.empty() ? " at" : ",", study.parameters.list[i].name,
+                        spoken_text(study, i, parameters[i]));
   }
   if (const auto sample = sample_at(study, parameters); sample && depends_on_samples(study, checked.reads))
     text += fmt::format(", sample {}", *sample);
@@ -106,10 +110,7 @@ void check_derived(const Study& study, const Checked& checked, std::span<const d
   const double value = parameters[checked.reads.front()];
   if (std::isfinite(value)) return;
   if (const auto* table = std::get_if<TableOf>(&checked.parameter->definition)) {
-    const auto told = [&](double si) {
-      const SpokenValue spoken = spoken_value(study, table->of, si);
-      return fmt::format("{:.6g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
-    };
+    const auto told = [&](double si) { return spoken_text(study, table->of, si); };
     fail(rules::out_of_range, study, checked, parameters,
          fmt::format("the table \"{}\" has no value", table->file),
          fmt::format("it covers {} from {} to {}, here {}", study.parameters.list[table->of].name,

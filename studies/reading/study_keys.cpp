@@ -341,6 +341,7 @@ constexpr StudyKey all_keys[] = {
     {"constraint", "band", KeyForm::table, "where the limit holds; default: the band of [tune]"},
     {"constraint.band", "from", KeyForm::number, "lowest value", needed},
     {"constraint.band", "to", KeyForm::number, "highest value", needed},
+    {"constraint.band", "unit", KeyForm::text, "of both; default: that of the band of [tune]"},
     {"scenario", "name", KeyForm::name, "of the scenario", needed},
     {"scenario", "set", KeyForm::settings, "{ parameter = value }", Inside{KeyForm::plain_value}, Length{0},
      needed},

@@ -15,11 +15,6 @@
 
 namespace frahm::studies {
 
-std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  return fingerprint_of(results::MapReader(path));
-}
-
 engine::Fingerprint fingerprint_of(const results::MapReader& map) {
   return {.physics = provenance_text(map, "fingerprint_physics"),
           .grid = provenance_text(map, "fingerprint_grid")};
@@ -47,12 +42,16 @@ void require_result(const std::filesystem::path& path) {
                         "completes it, frahm merge --partial makes a file of what there is of a map");
 }
 
-bool is_part(const results::MapReader& map) {
-  return !provenance_text(map, missing_tiles_text).empty();
+ResultKind kind_of(const results::MapReader& result) {
+  if (!result.layout().axes.empty()) return ResultKind::map;
+  if (result.has_group("branches")) return ResultKind::branch;
+  if (result.has_group("optimum")) return ResultKind::tuning;
+  if (result.has_group("identification")) return ResultKind::identification;
+  return ResultKind::motion;
 }
 
-bool is_partial(const std::filesystem::path& path) {
-  return std::filesystem::exists(path) && is_part(results::MapReader(path));
+bool is_part(const results::MapReader& map) {
+  return !provenance_text(map, missing_tiles_text).empty();
 }
 
 void refuse_link(const std::filesystem::path& output) {
@@ -121,10 +120,9 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
   }
 }
 
-void refuse_damage(const std::filesystem::path& result, const std::string& advice) {
+void refuse_damage(const results::MapReader& result, const std::string& advice) {
   try {
-    const results::MapReader reader(result);
-    reader.check_data(is_part(reader) ? results::Completeness::part : results::Completeness::whole);
+    result.check_data(is_part(result) ? results::Completeness::part : results::Completeness::whole);
   } catch (const results::StoreError& reason) {
     throw results::StoreError(reason.what(), "the result is damaged", advice);
   }

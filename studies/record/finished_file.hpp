@@ -9,12 +9,12 @@
 
 namespace frahm::studies {
 
-// The fingerprint of the study that a result file was made from; nothing if there is no such file.
-// Throws results::StoreError for a file that is no result of this program.
-std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path);
-
-// The same for an open result.
+// The fingerprint of the study that a result was made from.
 engine::Fingerprint fingerprint_of(const results::MapReader& map);
+
+// What a result holds: told by its axes and groups (FORMAT.md).
+enum class ResultKind { map, branch, tuning, identification, motion };
+ResultKind kind_of(const results::MapReader& result);
 
 // The text of /provenance with the number of tiles missing from a file made by merge --partial.
 inline constexpr const char* missing_tiles_text = "missing_tiles";
@@ -36,9 +36,6 @@ void require_result(const std::filesystem::path& path);
 // Whether a result was made by merge --partial.
 bool is_part(const results::MapReader& map);
 
-// Whether there is a file made by merge --partial.
-bool is_partial(const std::filesystem::path& path);
-
 // A file takes the place of another of its name in one step, which would leave of a link nothing. Throws
 // engine::IoError for a link, wherever it points.
 void refuse_link(const std::filesystem::path& output);
@@ -53,9 +50,9 @@ void require_folder_of(const std::filesystem::path& output);
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study,
                         std::optional<bool> fresh = std::nullopt);
 
-// Reads all of a result, of a part of one what there is. Throws results::StoreError if it is damaged, with
-// what to do.
-void refuse_damage(const std::filesystem::path& result, const std::string& advice);
+// Reads all of a result, of a part of one what there is. Throws results::StoreError if it is damaged.
+// advice: what to do, for the message.
+void refuse_damage(const results::MapReader& result, const std::string& advice);
 
 // A text of /provenance; empty if there is none of this name.
 std::string provenance_text(const results::MapReader& map, const std::string& name);

@@ -6,7 +6,6 @@
 #include <sstream>
 #include <variant>
 
-#include "results/map_reader.hpp"
 #include "studies/reading/repetition.hpp"
 #include "studies/reading/toml_building.hpp"
 #include "studies/reading/toml_reading.hpp"
@@ -86,10 +85,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 // The courses of two branches, or that one of two results is a branch.
 std::vector<std::string> changes_of_branch(const results::MapReader& result, const StudyPlan& now) {
-  const bool was_branch = result.has_group("branches") && result.layout().axes.empty();
+  const ResultKind kind = kind_of(result);
   const bool is_branch = !now.course.empty();
-  if (was_branch && !is_branch) return {fmt::format("a branch, now {}", kind_noun(now.study.kind()))};
-  if (is_branch && !was_branch && !result.layout().axes.empty()) return {"a sweep, now a branch"};
+  if (kind == ResultKind::branch && !is_branch)
+    return {fmt::format("a branch, now {}", kind_noun(now.study.kind()))};
+  if (kind == ResultKind::map && is_branch) return {"a sweep, now a branch"};
   std::vector<std::string> changes;
   const std::vector<std::string> before = lines_of(provenance_text(result, branch_course_text)),
                                  after = lines_of(now.course);
@@ -106,11 +106,11 @@ std::vector<std::string> study_changes(const Study& kept, const Study& now) {
   return changes;
 }
 
-std::vector<std::string> changes_since(const std::filesystem::path& result, const StudyPlan& now) {
-  const results::MapReader reader(result);
-  std::vector<std::string> changes = changes_of_branch(reader, now);
+std::vector<std::string> changes_since(const results::MapReader& result, const std::filesystem::path& file,
+                                       const StudyPlan& now) {
+  std::vector<std::string> changes = changes_of_branch(result, now);
   try {
-    for (std::string& change : told_changes(read_stored_study(reader, result).study, now.study))
+    for (std::string& change : told_changes(read_stored_study(result, file).study, now.study))
       changes.push_back(std::move(change));
   } catch (const StudyError&) {  // its tables may be gone, or it was written by another version
     return changes;
@@ -119,13 +119,14 @@ std::vector<std::string> changes_since(const std::filesystem::path& result, cons
   return changes;
 }
 
-std::vector<std::string> words_changed_since(const std::filesystem::path& result, const Study& now) {
+std::vector<std::string> words_changed_since(const results::MapReader& result,
+                                             const std::filesystem::path& file, const Study& now) {
   const auto in = [](const TomlValue* table, std::string_view key) {
     const TomlEntry* entry = table ? find_entry(*table, key) : nullptr;
     return entry ? &entry->value : nullptr;
   };
   const auto text = [](const TomlValue* value) { return value ? toml_in_line(*value) : ""; };
-  const TomlValue kept = read_toml({result.string(), provenance_text(results::MapReader(result), "study")});
+  const TomlValue kept = read_toml({file.string(), provenance_text(result, "study")});
   const TomlValue document = read_toml(now.source);
   std::vector<std::string> changed;
   if (text(in(in(&kept, "study"), "title")) != text(in(in(&document, "study"), "title")))

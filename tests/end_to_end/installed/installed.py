@@ -43,6 +43,7 @@ def completions(prefix, program):
     assert completed_by_bash(script, ["frahm", "br"]) == ["branch"]
     assert completed_by_bash(script, ["frahm", "run", "--time"]) == ["--time-budget"]
     assert completed_by_bash(script, ["frahm", "point", "--path", "g"]) == ["general"]
+    assert completed_by_bash(script, ["frahm", "help", "tu"]) == ["tune"]
     for command in commands(program):
         offered = completed_by_bash(script, ["frahm", command, "--"])
         assert "--help" in offered, command

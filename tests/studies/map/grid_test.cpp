@@ -101,6 +101,19 @@ TEST_CASE("a point is told as the option --at takes it, with its units") {
   CHECK(point_text(rig, std::vector<std::uint64_t>{41, 1, 400}) == "I=12.9 kg,FP=0.01,omega=350 rpm");
 }
 
+TEST_CASE("a coordinate that is a parameter alone is converted to its unit, an expression is in it") {
+  std::string metric = oscillator();
+  const std::string units = "units = \"dimensionless\"\n";
+  metric.erase(metric.find(units), units.size());
+  const Study study =
+      parse_study(metric + small_studies::axis_of("f", "[100, 250]") +
+                      "[[coordinate]]\nname = \"force\"\nvalue = \"f\"\nunit = \"kN\"\n"
+                      "[[coordinate]]\nname = \"double\"\nvalue = \"2*f/1000\"\nunit = \"kN\"\n",
+                  "small.toml");
+  CHECK(coordinate_values(study, study.map()->coordinates[0]) == std::vector<double>{0.1, 0.25});
+  CHECK(coordinate_values(study, study.map()->coordinates[1]) == std::vector<double>{0.2, 0.5});
+}
+
 TEST_CASE("a map that meets the arctan law is cut into small tiles, as its points take long") {
   const Study study =
       parse_study(small_studies::oscillator() + small_studies::axis("f", 0, 1, 10) +

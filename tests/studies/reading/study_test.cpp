@@ -218,6 +218,13 @@ TEST_CASE("a schedule is read from a table beside the study and refused outside 
   const Study inside = study("35");
   CHECK(inside.parameters.nominal() == std::vector<double>{20, 6});
   CHECK_THROWS_WITH(study("40"), Catch::Contains("it covers omega from 15 rad/s to 35 rad/s, here 40 rad/s"));
+  // 100 rpm = 10.5 rad/s, 300 rpm = 31.4 rad/s; 20 rad/s = 191 rpm.
+  std::ofstream(folder / "schedule.csv") << "omega [rpm],I [g]\n100,4000\n300,12000\n";
+  const double rpm = std::numbers::pi / 30.0;
+  CHECK_THAT(study("30").parameters.nominal()[1],
+             Catch::WithinRel(4.0 + 8.0 * (20.0 / rpm - 100.0) / 200.0, rounding));
+  std::ofstream(folder / "schedule.csv") << "omega [mm],I [g]\n100,4000\n300,12000\n";
+  CHECK_THROWS_WITH(study("30"), Catch::Contains("schedule.csv: its column of \"omega\""));
   std::filesystem::remove_all(folder);
 }
 

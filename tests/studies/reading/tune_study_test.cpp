@@ -103,14 +103,17 @@ TEST_CASE("limits, a trade-off, scenarios and columns are read in their units") 
       rig + "trade_off = { quantity = \"main_acceleration_peak\", values = [3, 2] }\n" + scheduled +
       "[[constraint]]\nquantity = \"tmd_spring_stroke\"\nupper = 80\nunit = \"mm\"\n"
       "band = { from = 200, to = 300 }\n"
+      "[[constraint]]\nquantity = \"main_peak\"\nupper = 0.1\n"
+      "band = { from = 4, to = 5, unit = \"Hz\" }\n"
       "[[scenario]]\nname = \"small\"\nset = { A = 20 }\n"
       "[[scenario]]\nname = \"large\"\nset = { A = { value = 4, unit = \"cm\" } }\n"
       "[[column]]\nname = \"ratio\"\nvalue = \"sqrt((I*0.0009 - 0.0036)/0.0027)\"\nlower = 0.58\nupper = "
       "1.76\n");
   const TuneChoice& tune = *study.tune();
-  REQUIRE(tune.limits.size() == 1);
+  REQUIRE(tune.limits.size() == 2);
   CHECK_THAT(tune.limits[0].upper, Catch::WithinRel(0.08, rounding));
   CHECK_THAT(tune.limits[0].band->from, Catch::WithinRel(200.0 * std::numbers::pi / 30.0, rounding));
+  CHECK_THAT(tune.limits[1].band->to, Catch::WithinRel(10.0 * std::numbers::pi, rounding));
   CHECK(tune.trade_off->limits == std::vector<double>{3.0, 2.0});
   REQUIRE(tune.scenarios.size() == 2);
   CHECK_THAT(tune.scenarios[0].set[0].value, Catch::WithinRel(0.02, rounding));

@@ -39,7 +39,9 @@ const std::string rig =
     "rule = \"k/n^2\"\n"
     "[[design]]\nparameter = \"k\"\nlower = 5\nupper = 20\n"
     "[[constraint]]\nquantity = \"tmd_spring_stroke\"\nupper = 80\nunit = \"mm\"\n"
-    "[[column]]\nname = \"ratio\"\nvalue = \"I/10\"\nlower = 0.5\nupper = 0.8\n";
+    "[[column]]\nname = \"ratio\"\nvalue = \"I/10\"\nlower = 0.5\nupper = 0.8\n"
+    "[[column]]\nname = \"grams\"\nvalue = \"I\"\nunit = \"g\"\nupper = 7000\n"
+    "[[column]]\nname = \"twice\"\nvalue = \"2000*I\"\nunit = \"g\"\n";
 
 tuning::Optimum optimum_of(double objective, tuning::Outcome outcome = tuning::Outcome::converged) {
   tuning::Optimum optimum;
@@ -100,6 +102,11 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK(std::isnan(values("tmd_spring_stroke_lower_limit")[0]));
   CHECK(named(columns, "response_after").dimension == "n");
   CHECK_THAT(values("I_schedule")[1], Catch::WithinRel(8.0, rounding));
+  // A parameter alone is converted, an expression gives its number in the unit.
+  CHECK_THAT(values("grams")[1], Catch::WithinRel(8000.0, rounding));
+  CHECK(unit("grams") == "g");
+  CHECK(values("grams_range") == std::vector<double>{1, 3, 1});
+  CHECK_THAT(values("twice")[1], Catch::WithinRel(16000.0, rounding));
   CHECK(values("ratio_range") == std::vector<double>{1, 1, 1});
   CHECK(values("ratio_range_lower") == std::vector<double>{0.5});
   CHECK(values("ratio_range_upper") == std::vector<double>{0.8});
