@@ -72,7 +72,7 @@ class ElementFormula {
   Added<Dual> (*duals_)(Dual, Dual, Dual);
 };
 
-struct ElementKind {
+struct ElementKind {  // NOLINT(cppcoreguidelines-pro-type-member-init): rows give what has no default
   ElementType type;
   const char* name;   // in a study file
   const char* force;  // its force by the symbols of its values, for readers; u across it, v = u'

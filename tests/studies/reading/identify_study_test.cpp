@@ -338,7 +338,7 @@ TEST_CASE("earlier estimates that fix nothing, or contradict the study, are refu
   CHECK_THAT(complaint("\"open.h5\""), Catch::Contains("\"F\" was not determined by its data"));
   CHECK_THAT(complaint("[\"good.h5\", \"good.h5\"]"), Catch::Contains("stands in an earlier file"));
   CHECK_THAT(complaint("\"good.h5\"", "set = { F = 2 }\n"), Catch::Contains("that the record \"free\" sets"));
-  CHECK_THAT(complaint("\"below.h5\""), Catch::Contains("force: is -1 N at F = -1; must be >= 0"));
+  CHECK_THAT(complaint("\"below.h5\""), Catch::Contains("force: is -1 N at F = -1 N; must be >= 0"));
   CHECK_THAT(complaint("\"map.h5\""), Catch::Contains("map.h5: is the result of no identification"));
   CHECK_THAT(complaint("\"free.csv\""), Catch::Contains("[identify]: fixed_from: "));
 }

@@ -109,7 +109,7 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
        "14:1: the masses \"tmd\" and \"tip\" float free: no chain of springs leads to ground or to a node of "
        "prescribed motion, so the stiffness matrix is not positive definite"},
       {"output_orbit_out_of_range",
-       "24:11: element \"damper\": damping: is -1 N s/m at c = -1 ([output]: orbits); must be >= 0"},
+       "24:11: element \"damper\": damping: is -1 N s/m at c = -1 N s/m ([output]: orbits); must be >= 0"},
       {"transient_coordinate_without_axis",
        "36:3: the section \"coordinate\" is not part of a transient: without an [[axis]] it computes one motion, "
        "not a map"},
