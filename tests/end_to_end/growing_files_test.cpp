@@ -309,7 +309,7 @@ TEST_CASE("a value that no run records is told by its place and never taken over
   for (const auto& [variable, value] :
        {std::pair{"status", 77.0}, std::pair{"friction_regime", 77.0}, std::pair{"friction_stops", -7.0}}) {
     REQUIRE(run(study, earlier, {"--fresh"}).code == 0);
-    edit(earlier, [&](Map& map) { map.values.at(variable)[2 * 31 + 7] = value; });
+    edit(earlier, [name = variable, wrong = value](Map& map) { map.values.at(name)[2 * 31 + 7] = wrong; });
     const auto outcome = run(folder / "new.toml", output, {"--from", earlier});
     CHECK(outcome.code == 6);
     CHECK_THAT(outcome.err,

@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr double J = 0.02, k = 8.0, T = 0.4, natural = 20.0;  // [kg m2], [N m/rad], [N m], sqrt(k/J) [rad/s]
+constexpr double k = 8.0, T = 0.4, natural = 20.0;  // [N m/rad], [N m], sqrt(k/J) [rad/s], J = 0.02 kg m2
 
 std::string rotor(const std::string& kind, const std::string& more) {
   return "[study]\nschema = 1\nkind = \"" + kind +
