@@ -55,9 +55,10 @@ std::vector<double> heights(const DesignMap& map) {
   return heights;
 }
 
-// Calls each(neighbour) for all cells beside a cell.
+// Calls each(neighbour) for all cells of the map beside a cell.
 template <class Each>
-void for_neighbours(std::size_t cell, std::size_t dimensions, int along, const Each& each) {
+void for_neighbours(const DesignMap& map, std::size_t cell, const Each& each) {
+  const auto& [dimensions, along] = std::pair(map.dimensions, map.along);
   const std::vector<int> place = place_of(cell, dimensions, along);
   const auto directions =
       static_cast<std::size_t>(std::lround(std::pow(3.0, static_cast<double>(dimensions))));
@@ -71,15 +72,8 @@ void for_neighbours(std::size_t cell, std::size_t dimensions, int along, const E
       neighbour += stride * static_cast<std::size_t>(std::max(at, 0));
       stride *= static_cast<std::size_t>(along);
     }
-    if (inside && neighbour != cell) each(neighbour);
+    if (inside && neighbour != cell && neighbour < map.merit.size()) each(neighbour);
   }
-}
-
-std::size_t dimensions_of(const DesignMap& map) {
-  std::size_t dimensions = 0;
-  for (std::size_t cells = 1; cells < map.merit.size(); cells *= static_cast<std::size_t>(map.along))
-    ++dimensions;
-  return dimensions;
 }
 
 // The cells that no neighbour undercuts, the lowest first.
@@ -87,8 +81,7 @@ std::vector<std::size_t> lowest_cells(const DesignMap& map, const std::vector<do
   std::vector<std::size_t> low;
   for (std::size_t cell = 0; cell < height.size(); ++cell) {
     bool lowest = std::isfinite(height[cell]);
-    for_neighbours(cell, dimensions_of(map), map.along,
-                   [&](std::size_t other) { lowest = lowest && height[other] >= height[cell]; });
+    for_neighbours(map, cell, [&](std::size_t other) { lowest = lowest && height[other] >= height[cell]; });
     if (lowest) low.push_back(cell);
   }
   std::ranges::stable_sort(low, {}, [&](std::size_t cell) { return height[cell]; });
@@ -124,7 +117,10 @@ DesignMap map_designs(const DesignSpace& space, const MeritAt& merit_at,
     value.push_back(space.parameter(p).lower);
     if (varies(space.parameter(p))) axes.push_back(p);
   }
-  DesignMap map{.along = kCells[std::min(axes.size(), kMostParameters)], .design = {}, .merit = {}};
+  DesignMap map{.dimensions = axes.size(),
+                .along = kCells[std::min(axes.size(), kMostParameters)],
+                .design = {},
+                .merit = {}};
   const auto cells =
       static_cast<std::size_t>(std::lround(std::pow(map.along, static_cast<double>(axes.size()))));
   for (std::size_t cell = 0; cell < cells && !stop_asked(); ++cell) {
@@ -146,7 +142,6 @@ std::vector<std::vector<double>> lowest_places(const DesignMap& map, std::size_t
 
 std::vector<std::vector<double>> low_places_elsewhere(const DesignMap& map, std::size_t most) {
   const std::vector<double> height = heights(map);
-  const std::size_t dimensions = dimensions_of(map);
   std::vector<std::size_t> taken = lowest_cells(map, height);
   std::vector<std::size_t> by_height(height.size());
   std::iota(by_height.begin(), by_height.end(), std::size_t{0});
@@ -156,7 +151,7 @@ std::vector<std::vector<double>> low_places_elsewhere(const DesignMap& map, std:
     if (places.size() == most || !std::isfinite(height[cell])) break;
     const bool is_near = std::ranges::any_of(taken, [&](std::size_t other) {
       bool beside = other == cell;
-      for_neighbours(cell, dimensions, map.along, [&](std::size_t n) { beside = beside || n == other; });
+      for_neighbours(map, cell, [&](std::size_t n) { beside = beside || n == other; });
       return beside;
     });
     if (is_near) continue;

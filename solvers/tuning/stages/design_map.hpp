@@ -19,8 +19,10 @@ struct DesignMerit {
 };
 using MeritAt = std::function<DesignMerit(std::span<const double> value)>;
 
+// Of a search that was stopped: the first cells only.
 struct DesignMap {
-  int along = 0;  // cells of each parameter whose bounds differ
+  std::size_t dimensions = 0;  // the parameters whose bounds differ
+  int along = 0;               // cells of each of them
   std::vector<std::vector<double>>
       design;                      // middle of each cell, one value per parameter; the first varies most
   std::vector<DesignMerit> merit;  // of each

@@ -90,7 +90,7 @@ TEST_CASE("A simulation of ranks tells time, efficiency and losses of 1, 10, 100
       Catch::Contains("threads in all"));
 }
 
-TEST_CASE("A map of less than a second is predicted as that") {
+TEST_CASE("A map of less than a second is predicted as that", "[timed]") {
   std::ostringstream out;
   CHECK(check_command({.study = study_path("cheng_zu"), .threads = 1}, out) == 0);
   INFO(out.str());
@@ -140,7 +140,7 @@ TEST_CASE("Checking a large building shows twelve modes at eight floors, and all
   CHECK(!has(whole.str(), "--all"));
 }
 
-TEST_CASE("Checking a tuning tells the time of its starts on these threads") {
+TEST_CASE("Checking a tuning tells the time of its starts on these threads", "[timed]") {
   const TemporaryDirectory folder;
   const std::filesystem::path path = folder / "tune.toml";
   std::string text = small_tunings::classical;

@@ -1,5 +1,6 @@
 #include "solvers/tuning/stages/design_map.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -52,6 +53,22 @@ TEST_CASE("a map tells which share of the box has a response, and none of its pl
   CHECK(map.seen() == 17);
   REQUIRE(lowest_places(map, 4).size() == 1);
   CHECK(lowest_places(map, 4)[0][0] == Approx(0.5));
+}
+
+TEST_CASE("a map that was stopped has places among its first cells, as if there were no others") {
+  // A plane that falls along both: of a part the lowest are the last cells that it has.
+  const MeritAt plane = [](auto at) { return DesignMerit{10.0 - at[0] - 2.0 * at[1], -kInfinity}; };
+  const DesignSpace box({{"x", 0.0, 1.1, 0.0, {}}, {"y", 0.0, 1.1, 0.0, {}}});
+  for (std::size_t cells = 1; cells <= 121; ++cells) {
+    const DesignMap map = map_designs(box, plane, [left = cells]() mutable { return left-- == 0; });
+    REQUIRE(map.merit.size() == cells);
+    const auto lowest = lowest_places(map, 4);
+    REQUIRE_FALSE(lowest.empty());
+    for (const auto& place : lowest) CHECK(std::ranges::find(map.design, place) != map.design.end());
+    CHECK(lowest[0] ==
+          *std::ranges::min_element(map.design, {}, [&](const auto& at) { return plane(at).objective; }));
+    CHECK(low_places_elsewhere(map, 3).size() <= 3);
+  }
 }
 
 TEST_CASE("a range over more than a decade has cells of equal ratios") {
