@@ -13,8 +13,8 @@ import sys
 import time
 
 import faulty_runs
-from faulty_runs import (EVERYTHING, OUTPUT, TIME_LIMIT, Expected, Fault, ended, in_parallel, larger_sweep, sampled, sweep_study,
-                         tiles_of_log)
+from faulty_runs import (EVERYTHING, HEADER_SIZE, OUTPUT, TIME_LIMIT, Expected, Fault, ended, in_parallel, larger_sweep, sampled,
+                         sweep_study, tiles_of_log)
 
 RANKS = 3
 KILLS = 15 if EVERYTHING else 4  # at random moments, in each of several series
@@ -43,12 +43,13 @@ def ranks_of(process):
         return [int(pid) for pid in file.read().split()]
 
 
-def is_running(pid):
+def state_of(pid):
+    """"R" of a process that runs, "T" of one that is stopped, "Z" of one that has ended and is not waited for; "" if there is none."""
     try:
         with open(f"/proc/{pid}/stat") as file:
-            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+            return file.read().rsplit(")", 1)[1].split()[0]
     except FileNotFoundError:
-        return False
+        return ""
 
 
 def job_ended(process):
@@ -57,7 +58,7 @@ def job_ended(process):
     try:
         process.wait(TIME_LIMIT)
     except subprocess.TimeoutExpired:
-        alive = [pid for pid in ranks_of(process) if is_running(pid)]
+        alive = [pid for pid in ranks_of(process) if state_of(pid) not in ("", "Z")]
         assert not alive, f"ranks {alive} hang"
         print("the launcher outlived all its ranks and was killed", flush=True)
         process.kill()
@@ -91,7 +92,7 @@ def kill_at_calls(launcher, bench, study, expected):
         rank, fault = item
         place = bench.place(study)
         environment = dict(place.environment(fault), FAULT_RANK=str(rank))
-        outcome = ended(launcher.start(place, RANKS, environment))
+        outcome = job_ended(launcher.start(place, RANKS, environment))
         if outcome.code == 0:  # the tiles were dealt out otherwise: this rank had fewer calls
             expected.check_file(place, f"rank {rank}, {fault}")
             return 0
@@ -128,17 +129,32 @@ def kill_at_random(launcher, bench, study, expected):
     return kills
 
 
-def freeze(launcher, bench, study, expected, thaws):
-    """The last of the ranks freezes as soon as its log has a tile; the job ends without it."""
+def second_tile_of(launcher, bench, study, rank):
+    """The number of the call by which a rank appends its second tile to its log."""
     place = bench.place(study)
-    process = launcher.start(place, RANKS, options=("--rank-silence", "2s"))
-    log = f"{OUTPUT}.shard-0-of-1-rank-{RANKS - 1}.frahm-log"
+    environment = dict(place.environment(Fault()), FAULT_RANK=str(rank))
+    assert ended(launcher.start(place, RANKS, environment)).code == 0
+    appends = [call.number for call in place.calls()
+               if call.name == "pwrite" and call.path.endswith(".frahm-log") and call.offset >= HEADER_SIZE]
+    return appends[1]
+
+
+def wait_for_frozen(process):
     give_up = time.monotonic() + TIME_LIMIT
-    while log not in place.names() or not tiles_of_log(place.read(log)):
-        assert process.poll() is None and time.monotonic() < give_up, "the rank has finished no tile"
+    while True:
+        for pid in ranks_of(process):
+            if state_of(pid) == "T":
+                return pid
+        assert process.poll() is None and time.monotonic() < give_up, "no rank has frozen"
         time.sleep(0.01)
-    frozen = ranks_of(process)[-1]
-    os.kill(frozen, signal.SIGSTOP)
+
+
+def freeze(launcher, bench, study, expected, at_call, thaws):
+    """The last of the ranks freezes when it has finished a tile; the job ends without it."""
+    place = bench.place(study)
+    environment = dict(place.environment(Fault(at_call, "freeze")), FAULT_RANK=str(RANKS - 1))
+    process = launcher.start(place, RANKS, environment, ("--rank-silence", "2s"))
+    frozen = wait_for_frozen(process)
     if thaws:
         time.sleep(3.5)
         os.kill(frozen, signal.SIGCONT)
@@ -159,8 +175,9 @@ def drill(bench):
     expected = Expected(bench.place(study))
     kills = sum(in_parallel(lambda _: kill_at_random(launcher, bench, study, expected), range(AT_ONCE), AT_ONCE))
     print(f"{kills} random kills of one rank or of all", flush=True)
+    at_call = second_tile_of(launcher, bench, study, RANKS - 1)
     for number in range(FREEZES):
-        freeze(launcher, bench, study, expected, thaws=number % 2 == 1)
+        freeze(launcher, bench, study, expected, at_call, thaws=number % 2 == 1)
     print(f"{FREEZES} ranks frozen", flush=True)
 
 
