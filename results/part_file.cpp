@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::string_view mark = ".part-";
 constexpr std::size_t random_digits = 8;
+constexpr const char* cannot_rename = "cannot rename the part to it";
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
   throw StoreError(path.string(), what, std::strerror(error));
@@ -59,6 +60,11 @@ void remove_if_dead(const std::filesystem::path& part) {
   const bool is_plain = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
   if (is_plain && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(part.c_str());
   ::close(descriptor);
+}
+
+bool is_there(const std::filesystem::path& path) {
+  struct stat ignored {};
+  return ::lstat(path.c_str(), &ignored) == 0;
 }
 
 void sync_folder(const std::filesystem::path& path) {
@@ -108,7 +114,11 @@ PartFile::~PartFile() {
 
 void PartFile::publish() {
   if (::fsync(descriptor_) != 0) fail(path_, "cannot sync its part", errno);
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename the part to it", errno);
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) {
+    const int error = errno;
+    if (!is_there(part_)) throw PartTaken(path_.string(), cannot_rename, std::strerror(error));
+    fail(path_, cannot_rename, error);
+  }
   published_ = true;
   sync_folder(path_);
 }

@@ -2,7 +2,16 @@
 
 #include <filesystem>
 
+#include "results/store_error.hpp"
+
 namespace frahm::results {
+
+// Another process removed the part of a file as one left by a killed process. It can where machines share a
+// folder but no locks, as over sshfs: what was written is to be written again.
+class PartTaken : public StoreError {
+ public:
+  using StoreError::StoreError;
+};
 
 // A file being written under a name of its own in the folder of its path; publish() renames the complete file
 // to the path in one step.
@@ -23,7 +32,7 @@ class PartFile {
   const std::filesystem::path& part() const { return part_; }
 
   // Syncs the part to disk, renames it to its path and syncs the directory. Nobody may have it open for
-  // writing. Throws StoreError.
+  // writing. Throws StoreError; PartTaken if the part is gone.
   void publish();
 
  private:

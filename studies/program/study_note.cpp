@@ -105,6 +105,25 @@ void refuse_foreign_file(const std::filesystem::path& path, const std::filesyste
   throw engine::IoError(path, "is there already and is no note of frahm; remove or rename it");
 }
 
+// Other shards may be writing the same note at this moment: each renames its complete file. Where two machines
+// share no locks, each may take the other's part for one left by a killed process; then it is written again.
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+  constexpr int most_attempts = 20;
+  for (int attempt = 1;; ++attempt) {
+    results::PartFile part(path);
+    errno = 0;
+    std::ofstream file(part.part(), std::ios::binary | std::ios::trunc);
+    file << text;
+    file.close();
+    if (!file) throw engine::IoError(path, "write", errno);
+    try {
+      return part.publish();
+    } catch (const results::PartTaken&) {
+      if (attempt == most_attempts) throw;
+    }
+  }
+}
+
 // The study of a note. If the note was moved with its tables and logs, the tables are beside the note and no
 // longer at the study's old path.
 Study study_of_note(const StudyNote& note, const std::filesystem::path& path) {
@@ -133,14 +152,7 @@ bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan
   const std::filesystem::path path = note_path(output, plan.log_header().fingerprint);
   const bool is_new = !is_there(path);
   if (!is_new) refuse_foreign_file(path, output, plan);
-  // Other shards may be writing the same note at this moment: each renames its complete file.
-  results::PartFile part(path);
-  errno = 0;
-  std::ofstream file(part.part(), std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) throw engine::IoError(path, "write", errno);
-  part.publish();
+  write_whole(path, text);
   return is_new;
 }
 

@@ -13,6 +13,7 @@
 #include "results/map_chunk.hpp"
 #include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
+#include "results/part_file.hpp"
 #include "results/store_error.hpp"
 #include "sample.hpp"
 #include "temporary_directory.hpp"
@@ -225,6 +226,17 @@ TEST_CASE("a part that a killed process left is removed, copied to another disk 
   sample::write(directory / "map.h5");
   CHECK_FALSE(std::filesystem::exists(directory / dead));
   CHECK(std::filesystem::exists(directory / foreign));
+}
+
+TEST_CASE("a part that another machine took for a dead one is told as such: it is to be written again") {
+  const TemporaryDirectory directory;
+  frahm::results::PartFile taken(directory / "note"), whole(directory / "note");
+  std::filesystem::remove(taken.part());
+  CHECK_THROWS_AS(taken.publish(), frahm::results::PartTaken);
+  CHECK_FALSE(std::filesystem::exists(directory / "note"));
+  whole.publish();
+  CHECK(std::filesystem::exists(directory / "note"));
+  CHECK(directory.parts() == 0);
 }
 
 TEST_CASE("a layout refused leaves nothing behind") {
