@@ -76,12 +76,6 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
   throw StudyError(rules::wrong_option, "--along {}: it is no axis of the study, so give {}", name, option);
 }
 
-// "10 Hz": as the study speaks of the parameter.
-std::string spoken_text(const Study& study, std::size_t parameter, double si) {
-  const SpokenValue spoken = spoken_value(study, parameter, si);
-  return fmt::format("{:.15g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
-}
-
 // Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.
 double start_of(const Study& study, std::size_t parameter, const BranchCommandOptions& options, double low,
                 double high) {

@@ -202,7 +202,7 @@ int write_at_optimum(const ExportOptions& options, std::ostream& out) {
   const bool runs_up = !options.run_up.empty();
   const std::filesystem::path& place = runs_up ? options.run_up : options.sweep;
   check_name_of_study(runs_up ? "--run-up" : "--sweep", place);
-  require_result(options.file);
+  undamaged_result(options.file);
   const auto study_of = runs_up ? run_up_study : sweep_study;
   const SweepStudy sweep = study_of(read_stored_tuning(options.file), place.stem().string());
   refuse_other_text(place, sweep.text);
@@ -216,7 +216,7 @@ int write_at_optimum(const ExportOptions& options, std::ostream& out) {
 
 int write_study(const ExportOptions& options, std::ostream& out) {
   check_name_of_study("--study", options.study);
-  require_result(options.file);
+  undamaged_result(options.file);
   write_whole_file(options.study, identified_study(options.file), Replaces::own_text);
   fmt::print(out, "{}\n", options.study.string());
   return 0;
@@ -258,9 +258,7 @@ int export_command(const ExportOptions& options, std::ostream& out) {
         "{0}: is a study; name its result, such as {1}, which frahm run {0} makes, or add --data "
         "FILE.csv for what sensors would show of it",
         options.file.string(), options.file.stem().string() + ".h5");
-  require_result(options.file);
-  const results::MapReader map(options.file);
-  refuse_damage(map, "frahm run --fresh computes it anew");
+  const results::MapReader map = undamaged_result(options.file);
   if (options.output == "-") {
     write_export(options, map, out);
     return 0;

@@ -47,9 +47,7 @@ int report_command(const ReportOptions& options, std::ostream& out) {
   require_page_parts();
   if (!options.figures.empty() && !options.output.empty())
     throw StudyError(rules::wrong_option, "--output: --figures writes into its own folder, no page");
-  require_result(options.file);
-  const results::MapReader result(options.file);
-  refuse_damage(result, "frahm run --fresh computes it anew");
+  const results::MapReader result = undamaged_result(options.file);
   if (options.figures.empty()) {
     write_page(options, result, out);
   } else {

@@ -77,12 +77,6 @@ std::optional<std::size_t> sample_at(const Study& study, std::span<const double>
   return std::nullopt;
 }
 
-// "400 rpm": a parameter in its unit.
-std::string spoken_text(const Study& study, std::size_t parameter, double si) {
-  const SpokenValue spoken = spoken_value(study, parameter, si);
-  return fmt::format("{:.6g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
-}
-
 // " at omega = 400 rpm, I = 6.36 kg": the numbers on which it depends.
 std::string place_name(const Study& study, const Checked& checked, std::span<const double> parameters) {
   std::string text;

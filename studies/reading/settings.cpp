@@ -42,6 +42,11 @@ SpokenValue spoken_value(const Study& study, std::size_t parameter, double si) {
   return spoken;
 }
 
+std::string spoken_text(const Study& study, std::size_t parameter, double si) {
+  const SpokenValue spoken = spoken_value(study, parameter, si);
+  return fmt::format("{:.12g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
+}
+
 UsualUnit frequency_unit(const Study& study) {
   for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
     const Parameter& parameter = study.parameters.list[i];

@@ -29,6 +29,8 @@ struct SpokenValue {
 };
 // parameter: index in Parameters::list, of a number.  si: its value in SI.
 SpokenValue spoken_value(const Study& study, std::size_t parameter, double si);
+// "400 rpm", in messages.
+std::string spoken_text(const Study& study, std::size_t parameter, double si);
 
 // The study's unit of the excitation frequency, or of what else is a frequency in it: that of the parameter
 // which is one, else that in which the study writes it; text "" for SI.

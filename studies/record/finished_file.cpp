@@ -128,6 +128,13 @@ void refuse_damage(const results::MapReader& result, const std::string& advice) 
   }
 }
 
+results::MapReader undamaged_result(const std::filesystem::path& path) {
+  require_result(path);
+  results::MapReader result(path);
+  refuse_damage(result, "frahm run --fresh computes it anew");
+  return result;
+}
+
 std::string provenance_text(const results::MapReader& map, const std::string& name) {
   if (!map.has_group("provenance")) return "";
   for (const auto& [key, text] : map.texts("provenance")) {

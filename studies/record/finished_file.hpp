@@ -54,6 +54,10 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
 // advice: what to do, for the message.
 void refuse_damage(const results::MapReader& result, const std::string& advice);
 
+// A result that a command reads and that agrees with its checksums. Throws as require_result and
+// refuse_damage do.
+results::MapReader undamaged_result(const std::filesystem::path& path);
+
 // A text of /provenance; empty if there is none of this name.
 std::string provenance_text(const results::MapReader& map, const std::string& name);
 

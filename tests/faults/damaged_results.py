@@ -13,7 +13,7 @@ import subprocess
 import h5py
 import numpy as np
 
-from faulty_runs import EVERYTHING, OUTPUT, in_parallel, main, sampled, sweep_study
+from faulty_runs import EVERYTHING, OUTPUT, in_parallel, main, sampled, sweep_study, tuning_study
 
 SEED = 24
 COMMANDS = ("status", OUTPUT), ("export", OUTPUT, "-o", "table.csv"), ("report", OUTPUT, "-o", "page.html")
@@ -360,6 +360,22 @@ def check_flipped_reruns(bench, data):
     print(f"80 flipped bits under a rerun, --from and export: {refused} refusals, no other number", flush=True)
 
 
+def check_studies_of_damaged(bench):
+    """A study is not written from a damaged tuning."""
+    place = bench.place(tuning_study(bench.source))
+    assert place.run("--progress", "none").code == 0
+    whole = place.read(OUTPUT)
+    names = in_chunks(place.path(OUTPUT))
+    assert names
+    for name in names:
+        place.write(OUTPUT, whole)
+        damage(place.path(OUTPUT), name)
+        outcome = place.call("export", OUTPUT, "--sweep", "sweep.toml")
+        assert outcome.code == 6 and "is damaged" in outcome.err, f"{name}: {outcome}"
+        assert place.names() == [OUTPUT], f"{name}: {place.names()}"
+    print(f"sweeps of a tuning damaged in each of {len(names)} datasets", flush=True)
+
+
 def drill(bench):
     assert shutil.which("h5repack"), "hdf5-tools is needed"
     results = {"map": made(bench, small_map(bench)), "decay": made(bench, decay_study(bench))}
@@ -368,6 +384,7 @@ def drill(bench):
     check_embedded_study(bench, results["map"])
     check_reruns(bench)
     check_flipped_reruns(bench, results["map"])
+    check_studies_of_damaged(bench)
     check_cuts(bench, results["map"])
     check_flips(bench, results)
 
