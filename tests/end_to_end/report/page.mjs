@@ -153,9 +153,15 @@ export function csvRows(text) {
 export async function photographed(page, name) {
   if (screenshots) mkdirSync(screenshots, { recursive: true });
   const keep = async (kind) => {
-    const picture = await page.screenshot({
+    const options = {
       fullPage: true,
       ...(screenshots ? { path: join(screenshots, `${name}_${kind}.png`) } : {}),
+    };
+    // On a busy machine Chromium now and then draws no frame after its window has changed; a page that cannot
+    // be drawn fails again.
+    const picture = await page.screenshot(options).catch((error) => {
+      if (error.name !== "TimeoutError") throw error;
+      return page.screenshot(options);
     });
     assert.ok(picture.length > 10_000, `${name} ${kind}: an empty picture`);
   };
