@@ -23,7 +23,7 @@
 namespace frahm::results {
 namespace {
 
-constexpr rlim_t most_seconds = 20;  // of processor time; the walk through a result takes milliseconds
+constexpr rlim_t most_seconds = 5;  // of processor time; the walk through a result takes milliseconds
 constexpr rlim_t most_memory = rlim_t{1} << 30;  // [bytes] beyond what the process has
 constexpr char passed = 'p', failed = 'f';       // the first byte of the child's answer
 

@@ -141,7 +141,7 @@ class Runs(unittest.TestCase):
         study.run(self.file, progress="none")
         whole, damaged = self.file.read_bytes(), self.file.with_name("damaged.h5")
         refused = 0
-        heap = whole.index(b"GCOL")  # of the references to scales; inside it HDF5 may search without end, for the 20 s it gets
+        heap = whole.index(b"GCOL")  # of the references to scales; inside it HDF5 may search without end, for the 5 s it gets
         places = [each for each in range(1000, 20_000, 500) if not heap - 40 < each < heap + 4096]
         for place in (*places, heap, heap + 8):
             damaged.write_bytes(whole[:place] + bytes(each ^ 0xFF for each in whole[place : place + 40]) + whole[place + 40 :])
