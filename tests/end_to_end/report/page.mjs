@@ -152,17 +152,14 @@ export function csvRows(text) {
 // Pictures of a page as a phone, a laptop and a printer show it, and nothing wider than the window.
 export async function photographed(page, name) {
   if (screenshots) mkdirSync(screenshots, { recursive: true });
-  const keep = async (kind) => {
-    const options = {
-      fullPage: true,
-      ...(screenshots ? { path: join(screenshots, `${name}_${kind}.png`) } : {}),
-    };
-    // On a busy machine Chromium now and then draws no frame after its window has changed; a page that cannot
-    // be drawn fails again.
-    const picture = await page.screenshot(options).catch((error) => {
-      if (error.name !== "TimeoutError") throw error;
-      return page.screenshot(options);
-    });
+  const keep = async (kind, width) => {
+    // A window as high as the page: of a picture that goes beyond its window (fullPage) Chromium may draw no frame
+    // on a busy machine, however often it is asked.
+    const height = await page.evaluate(() => document.documentElement.scrollHeight);
+    await page.setViewportSize({ width, height });
+    const picture = await page.screenshot(
+      screenshots ? { path: join(screenshots, `${name}_${kind}.png`) } : {},
+    );
     assert.ok(picture.length > 10_000, `${name} ${kind}: an empty picture`);
   };
   for (const [kind, width, height] of [
@@ -171,16 +168,16 @@ export async function photographed(page, name) {
   ]) {
     await page.setViewportSize({ width, height });
     await page.waitForTimeout(300);
-    await keep(kind);
     assert.ok(
       await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth + 1),
       `${name} is wider than a ${kind}`,
     );
+    await keep(kind, width);
   }
   await page.setViewportSize({ width: 794, height: 1123 }); // A4 at 96 dots an inch
   await page.emulateMedia({ media: "print" });
   await page.waitForTimeout(300);
-  await keep("print");
+  await keep("print", 794);
   await page.emulateMedia({ media: "screen" });
 }
 
