@@ -5,7 +5,7 @@
 namespace frahm::periodic {
 
 std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& network,
-                                                  std::vector<Quantity> quantities, Path path,
+                                                  const std::vector<Quantity>& quantities, Path path,
                                                   const OrbitsWanted& wanted) {
   const mechanics::Assembly assembly(network);
   const std::size_t masses = network.masses.size(), harmonics = assembly.orders().size();

@@ -12,7 +12,8 @@ namespace frahm::periodic {
 // A solver of the exact friction law, regardless of the elements' law; with sizes known at compile time where
 // one is compiled for this network. Throws mechanics::MechanicsError for a network that cannot move.
 std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& network,
-                                                  std::vector<Quantity> quantities, Path path = Path::general,
+                                                  const std::vector<Quantity>& quantities,
+                                                  Path path = Path::general,
                                                   const OrbitsWanted& wanted = {});
 
 }  // namespace frahm::periodic

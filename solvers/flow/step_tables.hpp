@@ -145,7 +145,7 @@ void StepTables<N, H>::propagate_forcing(const StepEquations<N, H>& equations,
   typename S::InternalByOscillators of_internal = internal_drive, of_internal_rate;
   drive_rate.resizeLike(drive);
   of_internal_rate.resizeLike(of_internal);
-  const auto forcing = [&](int k, auto& v_next, auto& s_next) {
+  const auto forcing = [&](int k, auto& v_next, [[maybe_unused]] auto& s_next) {
     const double share = 1.0 / (k + 1.0);
     v_next += drive;
     equations.differentiate(drive, drive_rate);

@@ -87,10 +87,9 @@ LeastSquaresFit Minima::grown(const VectorXd& start, double periods) {
     p = fit.p;
   }
   misfit_.follow_all();
-  if (!residuals_(p, grown_r, nullptr))
-    p = start;
-  else if (residuals_(start, r, nullptr) && !(grown_r.squaredNorm() < r.squaredNorm()))
-    p = start;
+  const bool is_nearer = residuals_(p, grown_r, nullptr) && (!residuals_(start, r, nullptr) ||
+                                                             grown_r.squaredNorm() < r.squaredNorm());
+  if (!is_nearer) p = start;
   return descend(p, kOnTheWay);
 }
 

@@ -284,7 +284,7 @@ std::unique_ptr<Simulation::Kind> make_kind(const Network& network, const TimeRe
 
 }  // namespace
 
-Simulation::Simulation(const Network& network, const TimeRecord& record, transient::Watch watch)
+Simulation::Simulation(const Network& network, const TimeRecord& record, const transient::Watch& watch)
     : kind_(make_kind(network, record, watch)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -14,7 +14,7 @@ class Simulation {
  public:
   // Throws mechanics::MechanicsError for a network that cannot move, or with the arctan law.
   // `record` must outlive it.
-  Simulation(const mechanics::Network& network, const TimeRecord& record, transient::Watch watch);
+  Simulation(const mechanics::Network& network, const TimeRecord& record, const transient::Watch& watch);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 

@@ -20,8 +20,8 @@ constexpr int kNative = 2;
 
 #define FRAHM_INLINE inline __attribute__((always_inline))
 
-typedef double Doubles __attribute__((vector_size(8 * kNative), may_alias));
-typedef long long Bits __attribute__((vector_size(8 * kNative), may_alias));
+using Doubles = double __attribute__((vector_size(8 * kNative), may_alias));
+using Bits = long long __attribute__((vector_size(8 * kNative), may_alias));
 
 // N lanes as halves of halves, down to the width of a register.
 template <int N>
@@ -165,7 +165,7 @@ FRAHM_INLINE Mask none() {
 }
 // Lanes are numbers of this type one after the other.
 FRAHM_INLINE double& at(Lanes& a, int lane) {
-  typedef double Entry __attribute__((may_alias));
+  using Entry = double __attribute__((may_alias));
   return reinterpret_cast<Entry*>(&a)[lane];
 }
 

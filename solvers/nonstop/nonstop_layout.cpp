@@ -135,9 +135,10 @@ void NonstopSolver::set_forms() {
   forms_with_friction_.clear();
   for (std::size_t f = 0; f < forms_.size(); ++f) {
     const Form& form = forms_[f];
-    is_direct_.push_back(!(form.motion.isZero(0.0) && form.velocity.isZero(0.0) &&
-                           form.acceleration.isZero(0.0) && form.force.isZero(0.0) &&
-                           form.applied.isZero(0.0)));
+    const bool is_of_state = form.motion.isZero(0.0) && form.velocity.isZero(0.0) &&
+                             form.acceleration.isZero(0.0) && form.force.isZero(0.0) &&
+                             form.applied.isZero(0.0);
+    is_direct_.push_back(is_of_state ? 0 : 1);
     if (!form.element.isZero(0.0)) forms_with_friction_.push_back(f);
   }
   shape_.is_direct = is_direct_.data();

@@ -260,7 +260,8 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
   set_coordinates(w, stop.start, w.zeta);
   w.osc[0] = turn(stop.release);
   const Lanes count = max(floor(stop.theta * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
-  passage.proved = passage.proved & (count < lanes(most_steps(1) / 2));
+  const int most = most_steps(1) / 2;
+  passage.proved = passage.proved & (count < lanes(most));
   const Lanes h = stop.theta / count;
   set_factors(w, h);
   const Lanes error = fourth_derivative(w, 0) * ((h * h) * (h * h)) * (1.0 / 144.0);

@@ -33,7 +33,7 @@ class Arena {
   template <class T>
   T* take(int count) {
     double* from = start_ == nullptr ? nullptr : start_ + used_;
-    used_ += static_cast<unsigned long>(count) * (sizeof(T) / sizeof(double));
+    used_ += static_cast<unsigned long>(count) * sizeof(T) / sizeof(double);
     return reinterpret_cast<T*>(from);
   }
   unsigned long used() const { return used_; }

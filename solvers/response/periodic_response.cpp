@@ -10,27 +10,28 @@ namespace {
 
 // A solver of the network's law.
 std::unique_ptr<ResponseSolver> make_solver(const mechanics::Network& network,
-                                            std::vector<Quantity> quantities, Path path,
+                                            const std::vector<Quantity>& quantities, Path path,
                                             const OrbitsWanted& wanted) {
-  if (mechanics::has_smooth_law(network)) return smooth::make_solver(network, std::move(quantities), wanted);
-  return make_exact_solver(network, std::move(quantities), path, wanted);
+  if (mechanics::has_smooth_law(network)) return smooth::make_solver(network, quantities, wanted);
+  return make_exact_solver(network, quantities, path, wanted);
 }
 
 std::unique_ptr<ResponseSolver> make_divided_solver(const mechanics::Network& network,
-                                                    std::vector<Quantity> quantities, Path path,
+                                                    const std::vector<Quantity>& quantities, Path path,
                                                     const OrbitsWanted& wanted) {
-  return divide_orders(network, std::move(quantities),
-                       [path, wanted](const mechanics::Network& divided, std::vector<Quantity> asked) {
-                         return make_solver(divided, std::move(asked), path, wanted);
+  return divide_orders(network, quantities,
+                       [path, wanted](const mechanics::Network& divided, const std::vector<Quantity>& asked) {
+                         return make_solver(divided, asked, path, wanted);
                        });
 }
 
 }  // namespace
 
-PeriodicResponse::PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities,
-                                   Path path, const OrbitsWanted& wanted)
-    : solver_((common_divisor(network) > 1 ? make_divided_solver : make_solver)(
-          network, std::move(quantities), path, wanted)) {}
+PeriodicResponse::PeriodicResponse(const mechanics::Network& network,
+                                   const std::vector<Quantity>& quantities, Path path,
+                                   const OrbitsWanted& wanted)
+    : solver_((common_divisor(network) > 1 ? make_divided_solver : make_solver)(network, quantities, path,
+                                                                                wanted)) {}
 PeriodicResponse::~PeriodicResponse() = default;
 PeriodicResponse::PeriodicResponse(PeriodicResponse&&) noexcept = default;
 PeriodicResponse& PeriodicResponse::operator=(PeriodicResponse&&) noexcept = default;

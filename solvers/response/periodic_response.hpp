@@ -25,7 +25,7 @@ class PeriodicResponse {
  public:
   // wanted: of a system that may have several responses.
   // Throws mechanics::MechanicsError for a network that cannot move, or that mixes friction laws.
-  PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities,
+  PeriodicResponse(const mechanics::Network& network, const std::vector<Quantity>& quantities,
                    Path path = Path::fastest, const OrbitsWanted& wanted = {});
   ~PeriodicResponse();
   PeriodicResponse(PeriodicResponse&&) noexcept;

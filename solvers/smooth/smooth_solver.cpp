@@ -279,7 +279,7 @@ History SmoothSolver::history(std::span<const double> phases) {
 }  // namespace
 
 std::unique_ptr<periodic::ResponseSolver> make_solver(const Network& network,
-                                                      std::vector<Quantity> quantities,
+                                                      const std::vector<Quantity>& quantities,
                                                       const periodic::OrbitsWanted& wanted) {
   return std::make_unique<SmoothSolver>(network, quantities, wanted);
 }

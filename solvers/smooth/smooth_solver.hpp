@@ -16,7 +16,7 @@ namespace frahm::smooth {
 // the orbits that are wanted. Throws mechanics::MechanicsError for a network that cannot move, or that has
 // contacts, stops or tables that are followed exactly.
 std::unique_ptr<periodic::ResponseSolver> make_solver(const mechanics::Network& network,
-                                                      std::vector<periodic::Quantity> quantities,
+                                                      const std::vector<periodic::Quantity>& quantities,
                                                       const periodic::OrbitsWanted& wanted);
 
 }  // namespace frahm::smooth

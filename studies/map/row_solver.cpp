@@ -25,11 +25,12 @@ periodic::Path path_of(const Study& study) {
 }  // namespace
 
 RowSolver::RowSolver(const Study& study, const mechanics::Network& network, StudyValues values,
-                     std::vector<periodic::Quantity> quantities, const periodic::OrbitsWanted& wanted)
+                     const std::vector<periodic::Quantity>& quantities,
+                     const periodic::OrbitsWanted& wanted)
     : parameters_(study.parameters),
       values_(std::move(values)),
       missing_(values_of_failure(quantities)),
-      response_(network, std::move(quantities), path_of(study), wanted) {}
+      response_(network, quantities, path_of(study), wanted) {}
 
 void RowSolver::add_point(std::span<double> parameters) {
   if (points_ == numbers_.size()) numbers_.emplace_back();

@@ -16,7 +16,7 @@ class RowSolver {
  public:
   // study: whose parameters the values read; must outlive the solver.  wanted: of several responses.
   RowSolver(const Study& study, const mechanics::Network& network, StudyValues values,
-            std::vector<periodic::Quantity> quantities, const periodic::OrbitsWanted& wanted);
+            const std::vector<periodic::Quantity>& quantities, const periodic::OrbitsWanted& wanted);
 
   void forget() { response_.forget(); }  // all earlier points
   void begin_row() { points_ = 0; }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iomanip>
 #include <iostream>
 #include <map>
 
@@ -96,7 +97,7 @@ class Counter {
   Counter(const Study& study, std::size_t parameter, engine::ProgressStyle style)
       : study_(study), parameter_(parameter), form_(engine::progress_form(style)) {}
   ~Counter() {
-    if (told_) fmt::print(std::cerr, "\r{:60}\r", "");
+    if (told_) std::cerr << '\r' << std::setw(kWidth) << "" << '\r';
   }
   void operator()(const periodic::BranchPoint& point) {
     ++points_;
@@ -109,11 +110,12 @@ class Counter {
     const SpokenValue value = spoken_value(study_, parameter_, point.parameter);
     const std::string text = fmt::format("{} points, {} = {:.6g} {}", points_,
                                          study_.parameters.list[parameter_].name, value.value, value.unit);
-    fmt::print(std::cerr, "\r{:60}", text);
+    fmt::print(std::cerr, "\r{:{}}", text, kWidth);
     std::cerr.flush();
   }
 
  private:
+  static constexpr int kWidth = 60;
   const Study& study_;
   std::size_t parameter_;
   engine::ProgressForm form_;

@@ -35,8 +35,9 @@ std::string time_text(double seconds) {
 void print_prediction(const TuningSample& sample, std::uint64_t starts, int wanted_threads,
                       std::ostream& out) {
   const int threads = engine::team_size(wanted_threads, starts);
-  const auto turns = static_cast<double>((starts + static_cast<std::uint64_t>(threads) - 1) /
-                                         static_cast<std::uint64_t>(threads));
+  const auto team = static_cast<std::uint64_t>(threads);
+  const std::uint64_t whole_turns = (starts + team - 1) / team;
+  const auto turns = static_cast<double>(whole_turns);
   const std::string least = time_text(turns * sample.least_seconds + sample.assessment_seconds);
   const std::string most = time_text(turns * sample.most_seconds + sample.assessment_seconds);
   fmt::print(out, "{:<22}about {}{}{} on {} thread{} of this machine", "time", least,

@@ -10,8 +10,6 @@
 #include <memory>
 #include <system_error>
 
-extern char** environ;
-
 namespace frahm::studies {
 namespace {
 

@@ -38,7 +38,8 @@ void raise_study_error(std::string_view message, std::string_view rule) {
   PyErr_SetObject(study_error, error.ptr());
 }
 
-void translate(std::exception_ptr thrown) {
+// pybind11 gives the exception by value.
+void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param)
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const studies::StudyError& error) {

@@ -140,7 +140,7 @@ studies::RowGrid grid_of(const Study& study, const std::vector<std::string>& at,
     if (values.empty()) throw studies::StudyError(studies::rules::empty, "{}: no values are given", name);
     const std::string first = fmt::format("{}={:.17g}", name, values.front());
     const studies::Assignment begin = studies::parse_assignments(study, "response()", first).front();
-    studies::RowAxis& axis = grid.axes.emplace_back(begin.parameter, std::vector<double>{});
+    studies::RowAxis& axis = grid.axes.emplace_back(studies::RowAxis{begin.parameter, {}});
     const double factor = studies::usual_unit(study, begin.parameter).si_factor;
     for (const double value : values) axis.si_values.push_back(value * factor);
   }

@@ -11,7 +11,6 @@ namespace frahm::python {
 namespace {
 
 using studies::TomlArray;
-using studies::TomlEntry;
 using studies::TomlTable;
 using studies::TomlValue;
 

@@ -140,7 +140,7 @@ void read_motion(const StudyContext& context, const TomlValue& root, Study& stud
   reading.result = {study.network, study.values};
   std::vector<InitialValues> initial = read_initial(reading, root);
   if (IdentifyChoice* identify = study.identify()) identify->initial = std::move(initial);
-  if (MotionChoice* motion = study.motion()) motion->initial = std::move(initial);
+  else if (MotionChoice* motion = study.motion()) motion->initial = std::move(initial);
   if (auto* decay = std::get_if<DecayChoice>(&study.choice)) read_decay(reading, root, *decay);
   if (auto* transient = std::get_if<TransientChoice>(&study.choice))
     read_transient(reading, root, *transient);

@@ -89,7 +89,8 @@ std::vector<Record> records_of_axis(const StudyContext& context, const TomlSecti
   check_generated(section, generated);
   for (std::size_t i = 0; i < generated.count; ++i) {
     Record record = generated_record(generated, place_of(section).of, component, i);
-    records.push_back(in_window(context, section, {record.name, section.position()}, std::move(record)));
+    const RecordFile named{record.name, section.position()};
+    records.push_back(in_window(context, section, named, std::move(record)));
   }
   return records;
 }

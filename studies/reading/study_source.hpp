@@ -28,7 +28,7 @@ struct Position {
   std::size_t line = 0;
   std::size_t column = 0;
 
-  friend auto operator<=>(const Position&, const Position&) = default;
+  friend auto operator<=>(const Position&, const Position&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 // The text of a study and the name of its file, for the record and for messages.

@@ -283,7 +283,7 @@ TEST_CASE("A contact that sticks throughout beside a stop that is touched leaves
   CHECK(checked == 1);
 }
 
-TEST_CASE("So does a chain of nine masses with damped stops, tables and static friction") {
+TEST_CASE("So does a chain of nine masses with damped stops, tables and static friction", "[slow]") {
   int checked = 0;
   for (unsigned trial = 0; trial < 6; ++trial) {
     INFO("trial " << trial);

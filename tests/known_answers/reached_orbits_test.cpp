@@ -47,7 +47,8 @@ Totals compare(unsigned first, unsigned count, int starts, const OrbitsWanted& w
   return totals;
 }
 
-TEST_CASE("The search finds every stable orbit that random starts of an independent integration reach") {
+TEST_CASE("The search finds every stable orbit that random starts of an independent integration reach",
+          "[slow]") {
   const Totals totals = compare(0, 40, 20, {});
   CHECK(totals.missed == 0);
   CHECK(totals.unclosed == 0);

@@ -40,7 +40,7 @@ void add(const mechanics::NetworkValues& values, double factor, mechanics::Netwo
 }  // namespace
 
 TunedResponse::TunedResponse(const Task& task, const DesignSpace& space, std::size_t scenario,
-                             std::vector<periodic::Quantity> quantities, Effort& effort, Worst worst)
+                             const std::vector<periodic::Quantity>& quantities, Effort& effort, Worst worst)
     : task_(task),
       space_(space),
       scenario_(scenario),

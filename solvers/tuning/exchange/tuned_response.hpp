@@ -32,7 +32,8 @@ class TunedResponse {
  public:
   // task, space, effort: must outlive the response. quantities: a peak with its side.
   TunedResponse(const Task& task, const DesignSpace& space, std::size_t scenario,
-                std::vector<periodic::Quantity> quantities, Effort& effort, Worst worst = Worst::largest);
+                const std::vector<periodic::Quantity>& quantities, Effort& effort,
+                Worst worst = Worst::largest);
 
   enum class State { solved, unbounded, failed };
   // Solves at the design x and a point of the band. If a derivative is needed and the orbit grazes, the orbit

@@ -78,8 +78,8 @@ double slope_by_place(const Task& task, const std::vector<QuantityLimit>& limits
   return sum;
 }
 
-LeapAt tuned_at(Task task, const std::vector<QuantityLimit>& limits, std::vector<double> x, Effort& effort,
-                const std::function<bool()>& stop_asked) {
+LeapAt tuned_at(Task task, const std::vector<QuantityLimit>& limits, const std::vector<double>& x,
+                Effort& effort, const std::function<bool()>& stop_asked) {
   LeapAt at{.task = std::move(task), .result = {}};
   const Schedule& schedule = *at.task.parameters[leaping_parameter(at.task)].schedule;
   at.place = 0.5 * (schedule.knots[*schedule.leap] + schedule.knots[*schedule.leap + 1]);
@@ -214,16 +214,16 @@ LeapDecided decide_leap(const Task& task, const std::vector<QuantityLimit>& limi
   const auto at = x.begin() + static_cast<std::ptrdiff_t>(
                                   DesignSpace(task.parameters).first(leaping_parameter(task)) + leap);
   x.insert(at, {*(at - 1), *at});
-  const LeapAt first = tuned_at(std::move(best), limits, std::move(x), effort, stop_asked);
+  const LeapAt first = tuned_at(std::move(best), limits, x, effort, stop_asked);
   if (!first.is_tuned()) return {first.task, {}};
   Descent descent(task, first);
   for (int move = 0; move < kMoves && !stop_asked(); ++move) {
     const std::optional<double> place = descent.next();
     if (!place) break;
     Task tried = with_leap_at(task, *place);
-    std::vector<double> from = moved(descent.lowest().task, tried, descent.lowest().result.x);
+    const std::vector<double> from = moved(descent.lowest().task, tried, descent.lowest().result.x);
     tried.solver = SolverKind::slsqp;  // goes on from a design that is nearly right at once
-    LeapAt found = tuned_at(std::move(tried), limits, std::move(from), effort, stop_asked);
+    LeapAt found = tuned_at(std::move(tried), limits, from, effort, stop_asked);
     found.task.solver = task.solver;
     if (!found.is_tuned()) break;
     descent.join(found);

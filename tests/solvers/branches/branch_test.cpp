@@ -110,7 +110,7 @@ TEST_CASE("A branch is unstable between its folds and stable elsewhere") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("Branches pass fifty folds of twenty-five systems") {
+TEST_CASE("Branches pass fifty folds of twenty-five systems", "[slow]") {
   std::size_t passed = 0;
   for (const double zeta : {0.03, 0.04, 0.05, 0.06, 0.07}) {
     for (const double k : {2.0, 3.0, 4.0, 5.0, 6.0}) {

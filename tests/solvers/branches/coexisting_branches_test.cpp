@@ -97,7 +97,7 @@ std::vector<double> stable_peaks(const Branch& branch, double parameter) {
   return peaks;
 }
 
-TEST_CASE("Every stable orbit that is found lies on one branch, subharmonics too") {
+TEST_CASE("Every stable orbit that is found lies on one branch, subharmonics too", "[slow]") {
   constexpr double kCurve = 2e-3;  // of a chord between two points of a branch
   const std::vector<Branch> branches = followed(before_a_stop, 1.0, 5.0, places(1.0, 5.0, 33));
   CHECK(branches.size() >= 2);

@@ -179,7 +179,8 @@ TEST_CASE("So are those of a damper that is stiffer one way, beside friction wit
   check_all(network, values, 50);
 }
 
-TEST_CASE("So are those of an absorber on a moving base that hits damped stops and rubs on the first mass") {
+TEST_CASE("So are those of an absorber on a moving base that hits damped stops and rubs on the first mass",
+          "[slow]") {
   Network network;
   network.masses = {"main", "absorber"};
   network.prescribed = {"base"};

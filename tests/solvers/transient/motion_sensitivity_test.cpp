@@ -318,7 +318,7 @@ void bend(Case& of) {
   }
 }
 
-TEST_CASE("So are those of motions against stops, with a damper's table and a static limit") {
+TEST_CASE("So are those of motions against stops, with a damper's table and a static limit", "[slow]") {
   std::mt19937 random(20261123);
   Tally tally;
   for (int number = 0; number < 24; ++number) {

@@ -123,7 +123,8 @@ Optimum best_of_starts(const RecordTask& task, std::size_t starts) {
   return best;
 }
 
-TEST_CASE("The tuned slip force of two storeys has the least worst and mean drift that a fine scan finds") {
+TEST_CASE("The tuned slip force of two storeys has the least worst and mean drift that a fine scan finds",
+          "[slow]") {
   const Frame frame;
   for (const RecordObjective objective : {RecordObjective::worst_peak, RecordObjective::mean_peak}) {
     RecordTask task = frame.task(false);
@@ -238,7 +239,7 @@ double scanned_quantile(const RecordTask& task, double at, std::size_t kth) {
   return worst[kth - 1];
 }
 
-TEST_CASE("A tuned quantile over samples is no higher than the least of a dense scan") {
+TEST_CASE("A tuned quantile over samples is no higher than the least of a dense scan", "[slow]") {
   constexpr double kNoHigher = 1e-4;  // relative
   constexpr std::size_t kSamples = 20;
   const Frame frame;
