@@ -14,13 +14,13 @@ std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& netw
                         assembly.internal_forces() == 0;
   if (is_small) {
     if (masses == 1 && harmonics == 1)
-      return std::make_unique<SizedSolver<1, 1>>(network, std::move(quantities), path, wanted);
+      return std::make_unique<SizedSolver<1, 1>>(network, quantities, path, wanted);
     if (masses == 1 && harmonics == 2)
-      return std::make_unique<SizedSolver<1, 2>>(network, std::move(quantities), path, wanted);
+      return std::make_unique<SizedSolver<1, 2>>(network, quantities, path, wanted);
     if (masses == 2 && harmonics == 1)
-      return std::make_unique<SizedSolver<2, 1>>(network, std::move(quantities), path, wanted);
+      return std::make_unique<SizedSolver<2, 1>>(network, quantities, path, wanted);
   }
-  return std::make_unique<SizedSolver<Eigen::Dynamic, Eigen::Dynamic>>(network, std::move(quantities), path,
+  return std::make_unique<SizedSolver<Eigen::Dynamic, Eigen::Dynamic>>(network, quantities, path,
                                                                        wanted);
 }
 

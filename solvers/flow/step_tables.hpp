@@ -142,6 +142,8 @@ void StepTables<N, H>::propagate_forcing(const StepEquations<N, H>& equations,
   // Column i starts from rest with oscillator i at 1. The forcing's own Taylor coefficients follow from its
   // rows.
   typename S::VectorByOscillators drive = Au, drive_rate;
+  // Without internal forces it is empty, and constant.
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   typename S::InternalByOscillators of_internal = internal_drive, of_internal_rate;
   drive_rate.resizeLike(drive);
   of_internal_rate.resizeLike(of_internal);
