@@ -24,7 +24,6 @@ namespace {
 
 constexpr std::string_view mark = ".part-";
 constexpr std::size_t random_digits = 8;
-constexpr const char* cannot_rename = "cannot rename the part to it";
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
   throw StoreError(path.string(), what, std::strerror(error));
@@ -67,9 +66,13 @@ bool is_there(const std::filesystem::path& path) {
   return ::lstat(path.c_str(), &ignored) == 0;
 }
 
-void sync_folder(const std::filesystem::path& path) {
+std::filesystem::path folder_of(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.parent_path();
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  return folder.empty() ? "." : folder;
+}
+
+void sync_folder(const std::filesystem::path& path) {
+  const int descriptor = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) fail(path, "cannot open its directory to sync", errno);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
@@ -92,7 +95,11 @@ PartFile::PartFile(std::filesystem::path path) : path_(std::move(path)) {
 bool PartFile::create() {
   part_ = random_name(path_);
   descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail(path_, "cannot create a file beside it", errno);
+  if (descriptor_ < 0) {
+    // On a network it can be taken while it is created.
+    if (errno == ENOENT && is_there(folder_of(path_))) return false;
+    fail(path_, "cannot create a file beside it", errno);
+  }
   // On a file system without locks this fails, and nobody removes the part of anybody else.
   ::flock(descriptor_, LOCK_EX | LOCK_NB);
   struct stat own {
@@ -112,22 +119,32 @@ PartFile::~PartFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void PartFile::publish() {
-  if (::fsync(descriptor_) != 0) fail(path_, "cannot sync its part", errno);
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) {
-    const int error = errno;
-    if (!is_there(part_)) throw PartTaken(path_.string(), cannot_rename, std::strerror(error));
-    fail(path_, cannot_rename, error);
+void PartFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ::ssize_t written = ::write(descriptor_, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) give_up("cannot write", errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+void PartFile::publish() {
+  if (::fsync(descriptor_) != 0) give_up("cannot sync its part", errno);
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) give_up("cannot rename the part to it", errno);
   published_ = true;
   sync_folder(path_);
 }
 
+void PartFile::give_up(const char* what, int error) const {
+  if (!is_there(part_)) throw PartTaken(path_.string(), what, std::strerror(error));
+  fail(path_, what, error);
+}
+
 void remove_dead_parts(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.parent_path();
+  const std::filesystem::path folder = folder_of(path);
   const std::string output = path.filename().string();
   std::error_code error;  // a folder that cannot be listed: the part cannot be created either, which is told
-  std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
+  std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     if (is_named_as_part(entry->path().filename().string(), output))
       remove_if_dead(folder / entry->path().filename());

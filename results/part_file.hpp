@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "results/store_error.hpp"
 
@@ -31,12 +32,15 @@ class PartFile {
 
   const std::filesystem::path& part() const { return part_; }
 
+  // Writes after what the part holds. Throws StoreError; PartTaken if the part is gone.
+  void write(std::string_view text);
   // Syncs the part to disk, renames it to its path and syncs the directory. Nobody may have it open for
   // writing. Throws StoreError; PartTaken if the part is gone.
   void publish();
 
  private:
   bool create();
+  [[noreturn]] void give_up(const char* what, int error) const;
 
   std::filesystem::path path_, part_;
   int descriptor_ = -1;     // holds the lock

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -111,12 +110,8 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   constexpr int most_attempts = 20;
   for (int attempt = 1;; ++attempt) {
     results::PartFile part(path);
-    errno = 0;
-    std::ofstream file(part.part(), std::ios::binary | std::ios::trunc);
-    file << text;
-    file.close();
-    if (!file) throw engine::IoError(path, "write", errno);
     try {
+      part.write(text);
       return part.publish();
     } catch (const results::PartTaken&) {
       if (attempt == most_attempts) throw;

@@ -232,10 +232,15 @@ TEST_CASE("a part that another machine took for a dead one is told as such: it i
   const TemporaryDirectory directory;
   frahm::results::PartFile taken(directory / "note"), whole(directory / "note");
   std::filesystem::remove(taken.part());
+  taken.write("lost");  // to the file that has no name any more
   CHECK_THROWS_AS(taken.publish(), frahm::results::PartTaken);
   CHECK_FALSE(std::filesystem::exists(directory / "note"));
+  whole.write("wh");
+  whole.write("ole");
   whole.publish();
-  CHECK(std::filesystem::exists(directory / "note"));
+  std::string text;
+  std::ifstream(directory / "note") >> text;
+  CHECK(text == "whole");
   CHECK(directory.parts() == 0);
 }
 
