@@ -19,6 +19,7 @@
 #include <string>
 
 #include "results/store_error.hpp"
+#include "results/write_whole.hpp"
 
 namespace frahm::results {
 namespace {
@@ -66,16 +67,6 @@ void restrain_child() {
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
 }
 
-void send(int to, const std::string& text) {
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = ::write(to, text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return;
-    done += static_cast<std::size_t>(count);
-  }
-}
-
 [[noreturn]] void be_child(int answer, const std::function<FileCheck()>& check) {
   std::string text(1, passed);
   try {
@@ -84,7 +75,7 @@ void send(int to, const std::string& text) {
   } catch (const std::exception& error) {
     text = failed + std::string(error.what());
   }
-  send(answer, text);
+  write_whole(answer, text);  // where it fails the parent takes the check for one that ended the process
   ::_exit(0);  // without the parent's buffers and destructors
 }
 

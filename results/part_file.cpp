@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "results/store_error.hpp"
+#include "results/write_whole.hpp"
 
 namespace frahm::results {
 namespace {
@@ -120,12 +121,7 @@ PartFile::~PartFile() {
 }
 
 void PartFile::write(std::string_view text) {
-  while (!text.empty()) {
-    const ::ssize_t written = ::write(descriptor_, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) give_up("cannot write", errno);
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (const int error = write_whole(descriptor_, text)) give_up("cannot write", error);
 }
 
 void PartFile::publish() {

@@ -36,8 +36,8 @@ struct BranchRoot {
   static constexpr double kClosed = 1e-12;  // a bracket
 
   BranchPlace place;
-  double value;  // of the function there
-  double width;  // of the bracket
+  double value = 0.0;  // of the function there
+  double width = 0.0;  // of the bracket
   // The function jumps across zero, within the bracket.
   bool is_jump() const { return std::abs(value) > kJump; }
 };

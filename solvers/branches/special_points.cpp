@@ -14,7 +14,7 @@ namespace {
 // bracket the one that has more: it happens there.
 struct Border {
   BranchPlace place;
-  double width;  // of the bracket
+  double width = 0.0;  // of the bracket
 };
 Border border_of_event(const PartOfBranch& stretch, std::size_t event) {
   constexpr int kMostSteps = 60;

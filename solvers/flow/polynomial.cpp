@@ -9,10 +9,9 @@ using Bernstein = std::array<double, kTerms>;
 
 // b_i = sum_{k <= i} binomial(i, k) / binomial(d, k) p_k, with d the degree (Farin, sec. 5.8).
 Bernstein to_bernstein(const Polynomial& p) {
-  Bernstein b;
-  for (int i = 0; i < kTerms; ++i) b[static_cast<std::size_t>(i)] = 0.0;
-  double scale = 1.0;                 // 1 / binomial(d, k)
-  std::array<double, kTerms> column;  // binomial(i, k)
+  Bernstein b{};
+  double scale = 1.0;                   // 1 / binomial(d, k)
+  std::array<double, kTerms> column{};  // binomial(i, k)
   column.fill(1.0);
   for (int k = 0; k < kTerms; ++k) {
     for (int i = k; i < kTerms; ++i)

@@ -128,14 +128,14 @@ Eigen::VectorXd forces_of(const HeldContacts& held, const Eigen::VectorXd& c) {
 }
 
 void keep(const SparseSystem& system, const HeldContacts& held, const double* support, double* a) {
-  std::array<double, 2 * kMostContacts + 1> work;
+  std::array<double, 2 * kMostContacts + 1> work;  // NOLINT(*-member-init): written before it is read
   if (held.hold_all) std::fill_n(a, system.masses(), 0.0);
   keep_numbers(system, held, support, work.data(), a);
 }
 
 void pull(const SparseSystem& system, const HeldContacts& held, const double* q, const double* v,
           const double* s, double* a, double* ds) {
-  std::array<double, 2 * kMostContacts + 1> work;
+  std::array<double, 2 * kMostContacts + 1> work;  // NOLINT(*-member-init): written before it is read
   pull_numbers(system, held, q, v, s, work.data(), a, ds);
 }
 

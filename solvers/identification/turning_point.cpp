@@ -12,13 +12,13 @@ namespace frahm::identification {
 namespace {
 
 using Index = Eigen::Index;
-constexpr Index kHighestDegree = 12;
+constexpr Index kMostShapes = 12;
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 // phi_1 ... phi_degree at s, u = 1 + delta^2: phi_1 = u exp(-delta s) sin s, phi_2 = 1 - exp(-delta s) (cos s
 // + delta sin s), and from phi_2'' + 2 delta phi_2' + u phi_2 = u, integrated again and again,
 //   phi_k = s^(k-2) / (k-2)! - (2 delta phi_{k-1} + phi_{k-2}) / u.
-using Shapes = Eigen::Matrix<double, kHighestDegree + 1, 1>;
+using Shapes = Eigen::Matrix<double, kMostShapes + 1, 1>;
 Shapes shapes_at(double s, double delta, Index degree) {
   const double u = 1.0 + delta * delta, falls = std::exp(-delta * s);
   Shapes phi;
@@ -149,7 +149,7 @@ TurningPoint turning_point(const Quarters& quarters) {
   TurningPoint best = fit_of(quarters, start, first);
   // The degree goes up by two: an odd power does not find what an even one misses. The first degree that does
   // not predict better ends the search: one of many would fit the noise by chance.
-  for (Index degree = 4; best.converged && degree <= kHighestDegree; degree += 2) {
+  for (Index degree = 4; best.converged && degree <= kMostShapes; degree += 2) {
     const TurningPoint last = best;
     for (const Index jump : std::set<Index>{2, 4, degree}) {
       const Degrees degrees{degree, jump};

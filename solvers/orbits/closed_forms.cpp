@@ -153,7 +153,7 @@ DenHartogFunctions den_hartog_functions(double r, double zeta) {
   const double sine_over_s = 2.0 * sine * cosine;  // e^{-zeta th} sin(s th) / s
   const double sinh = 0.5 * rise * (1.0 + decay);
 
-  DenHartogFunctions result;
+  DenHartogFunctions result{};
   result.V = 1.0 / std::hypot((1.0 - r) * (1.0 + r), 2.0 * zeta * r);
   result.G = (sinh - zeta * sine_over_s) / Dn;
   result.H = sine_over_s / (r * Dn);

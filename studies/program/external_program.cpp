@@ -40,7 +40,7 @@ TemporaryFile file_of(std::string_view text) {
 std::string text_of(std::FILE* file) {
   std::rewind(file);
   std::string text;
-  std::array<char, 4096> block;
+  std::array<char, 4096> block{};
   while (const std::size_t size = std::fread(block.data(), 1, block.size(), file))
     text.append(block.data(), size);
   return text;

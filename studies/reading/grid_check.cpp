@@ -19,7 +19,7 @@ struct Checked {
   const StudyValue* value = nullptr;     // or
   const Parameter* parameter = nullptr;  // with its index
   std::vector<std::size_t> reads;        // parameters
-  std::string_view origin = "";          // who sets them
+  std::string_view origin{};             // who sets them
   std::optional<std::size_t> element{};  // whose values
 };
 

@@ -35,8 +35,8 @@ enum class KeyForm {
 
 // A word that a key may be.
 struct StudyWord {
-  const char* word;
-  const char* meaning;
+  const char* word = "";
+  const char* meaning = "";
   const char* of = "";  // the forms of the section that know it: "a|b"; "": all
 };
 
@@ -76,11 +76,11 @@ struct Needed {
 
 // What else than its form a key may be, and what the entries of settings are.
 struct Or {
-  KeyForm form;
+  KeyForm form{};
   const char* section = "";  // of a table, where it is not `section.key`
 };
 struct Inside {
-  KeyForm form;
+  KeyForm form{};
 };
 
 // A key of a section of a study file. The table of them is what the readers allow (TomlSection), what

@@ -23,7 +23,7 @@ struct StudyPlan {
   engine::Fingerprint fingerprint = {};
   std::uint64_t tiles = 0;                                 // of the job; 0: not a job
   std::optional<EarlierResult> grown_from = std::nullopt;  // of a map only
-  std::string course = "";  // of a branch only: what is followed from where to where, a line for each
+  std::string course = {};  // of a branch only: what is followed from where to where, a line for each
 
   // The header of its shard logs. Points taken over differ in their last digits from points computed here, so
   // the logs of a growing map differ from those of the same map computed anew or grown from another result.

@@ -155,12 +155,16 @@ TEST_CASE("a tuning stopped by its time budget keeps its finished starts and goe
   const Folder folder;
   const std::string study = folder.write("tmd.toml", with_starts("200"));
   const std::string file = folder / "tmd.h5";
-  const Outcome stopped = tune(study, file, {"--time-budget", "1s"});
-  INFO(stopped.out << stopped.err);
-  REQUIRE(stopped.code == 4);
+  // The first budget in which this machine finishes a start.
+  Outcome stopped;
+  for (const char* budget : {"1s", "4s", "16s", "64s"}) {
+    stopped = tune(study, file, {"--time-budget", budget});
+    INFO(budget << ": " << stopped.out << stopped.err);
+    REQUIRE(stopped.code == 4);
+    if (stopped.err.find("begins anew") == std::string::npos) break;
+  }
   CHECK_THAT(stopped.err, Catch::Contains("goes on from there"));
-  const Outcome status = frahm({"status", file});
-  CHECK_THAT(status.out, Catch::Contains("of 200"));
+  CHECK_THAT(frahm({"status", file}).out, Catch::Contains("of 200"));
   REQUIRE(tune(study, file).code == 0);
   CHECK(columns_of(file)["start_objective"].size() == 200);
 }

@@ -51,11 +51,15 @@ Outcome read_result(const std::filesystem::path& path) {
 
 // As a file of another program.
 void read_data(const std::filesystem::path& path) {
-  for (const char* dataset : {"omega", "F", "/provenance/study", "main_peak"}) {
-    try {
-      DataReader(path).read(dataset);
-    } catch (const StoreError&) {
+  try {
+    const DataReader reader(path);
+    for (const char* dataset : {"omega", "F", "/provenance/study", "main_peak"}) {
+      try {
+        reader.read(dataset);
+      } catch (const StoreError&) {
+      }
     }
+  } catch (const StoreError&) {
   }
 }
 
