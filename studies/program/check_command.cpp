@@ -24,6 +24,7 @@
 #include "studies/program/branch_cost.hpp"
 #include "studies/program/check_tuning.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/memory_use.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/rank_table.hpp"
 #include "studies/program/record_table.hpp"
@@ -35,14 +36,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string readable_size(double bytes) {
-  for (const char* unit : {"bytes", "kB", "MB", "GB"}) {
-    if (bytes < 999.5) return fmt::format("{:.3g} {}", bytes, unit);
-    bytes /= 1000.0;
-  }
-  return fmt::format("{:.3g} TB", bytes);
-}
-
 void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
   fmt::print(out, "points  {} = ", grid.points());
   for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
@@ -52,8 +45,8 @@ void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
 }
 
 // A thread computes whole tiles, so that some threads may wait for the last.
-void print_prediction(const Study& study, const Grid& grid, const MapSample& sample, int wanted_threads,
-                      std::ostream& out) {
+void print_prediction(const Study& study, const Grid& grid, const MapSample& sample, const MemoryUse& memory,
+                      int wanted_threads, std::ostream& out) {
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
   const int threads = engine::team_size(wanted_threads, grid.tiles());
   const std::uint64_t turns =
@@ -64,6 +57,7 @@ void print_prediction(const Study& study, const Grid& grid, const MapSample& sam
   fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} {}/s on one, from {} points)\n",
              seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds), threads,
              threads == 1 ? "" : "s", rate, answers_noun(study), sample.points);
+  fmt::print(out, "memory  about {}\n", readable_size(memory.of_run(threads)));
   fmt::print(out, "file    about {} ({} before compression)\n",
              readable_size(static_cast<double>(sample.stored_bytes) * share),
              readable_size(static_cast<double>(sample.raw_bytes) * share));
@@ -227,6 +221,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   refuse_unfit_map(plan.study);
   const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const Study& study = plan.study;
+  const MemoryUse memory;
   const MapSample sample = sample_of(plan, sample_seconds);
   const double core_seconds =
       sample.seconds * static_cast<double>(plan.grid.points()) / static_cast<double>(sample.points);
@@ -241,7 +236,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   }
   print_grid(study, plan.grid, out);
   print_samples(study, out);
-  print_prediction(study, plan.grid, sample, options.threads, out);
+  print_prediction(study, plan.grid, sample, memory, options.threads, out);
   print_unfit_systems(study, sample, out);
   if (study.sweep()) {
     print_orbits_cost(plan, options.threads, out);

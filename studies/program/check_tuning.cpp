@@ -9,6 +9,7 @@
 #include "engine/team.hpp"
 #include "studies/program/array_job.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/memory_use.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_sample.hpp"
@@ -32,8 +33,8 @@ std::string time_text(double seconds) {
 }
 
 // A thread computes whole starts, so that some threads may wait for the last.
-void print_prediction(const TuningSample& sample, std::uint64_t starts, int wanted_threads,
-                      std::ostream& out) {
+void print_prediction(const TuningSample& sample, const MemoryUse& memory, std::uint64_t starts,
+                      int wanted_threads, std::ostream& out) {
   const int threads = engine::team_size(wanted_threads, starts);
   const auto team = static_cast<std::uint64_t>(threads);
   const std::uint64_t whole_turns = (starts + team - 1) / team;
@@ -49,6 +50,7 @@ void print_prediction(const TuningSample& sample, std::uint64_t starts, int want
                static_cast<double>(sample.responses) / sample.seconds, sample.least_responses,
                sample.most_responses);
   }
+  fmt::print(out, "{:<22}about {}\n", "memory", readable_size(memory.of_run(threads)));
 }
 
 }  // namespace
@@ -57,6 +59,7 @@ int check_tuning(const CheckOptions& options, Study read, std::ostream& out) {
   constexpr double sample_seconds = 2.0;
   const StudyPlan plan = plan_tuning(std::move(read), options.set);
   const Study& study = plan.study;
+  const MemoryUse memory;
   const TuningSample sample = sample_tuning(plan, sample_seconds);
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);
@@ -68,7 +71,7 @@ int check_tuning(const CheckOptions& options, Study read, std::ostream& out) {
   }
   fmt::print(out, "{:<22}{}\n{:<22}{}\n{:<22}{}\n", "variables", variables, "limits",
              study.tune()->limits.size() + (study.tune()->trade_off ? 1 : 0), "starts", plan.tiles);
-  print_prediction(sample, plan.tiles, options.threads, out);
+  print_prediction(sample, memory, plan.tiles, options.threads, out);
   fmt::print(out, "\n");
   print_stated_modes(study, options.listing(), out);
   if (plan.tiles > 1) {

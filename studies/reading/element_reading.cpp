@@ -123,6 +123,8 @@ void add_element(NetworkReading& reading, const TomlSection& section, mechanics:
   StudyValues& values = reading.result.values;
   reading.result.network.elements.push_back(std::move(element));
   check_number_of_contacts(reading, section, reading.result.network.elements.back());
+  if (mechanics::kind_of(reading.result.network.elements.back()).has_internal_force)
+    check_number_of_states(reading, section);
   values.element.push_back(std::move(value));
   values.second.push_back(std::move(second));
   values.slope.emplace_back();

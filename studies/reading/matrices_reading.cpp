@@ -101,6 +101,7 @@ void read_matrices(NetworkReading& reading, const TomlValue& root, const std::fi
     take_name(reading, section, part.name, section.where());
     if (section.find("damping")) keep_name_of_damping(reading);
     part.nodes = read_names(reading, section);
+    check_number_of_states(reading, section);
     part.mass = read_one(section, "mass", folder, part.nodes.size());
     part.stiffness = read_one(section, "stiffness", folder, part.nodes.size());
     if (section.find("damping")) part.damping = read_one(section, "damping", folder, part.nodes.size());

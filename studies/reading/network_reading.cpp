@@ -22,6 +22,7 @@ void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t numb
   take_name(reading, section, name, section.where());
   reading.result.network.masses.push_back(name);
   reading.masses.push_back(section.position());
+  check_number_of_states(reading, section);
   const bool rotates = section.find("inertia") != nullptr;
   if (rotates && section.find("mass"))
     section.fail(rules::one_of_two_keys, "inertia",

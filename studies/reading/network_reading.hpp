@@ -59,6 +59,9 @@ void check_one_law(const NetworkReading& reading, const TomlSection& section,
 void check_number_of_contacts(const NetworkReading& reading, const TomlSection& section,
                               const mechanics::Element& element);
 
+// Refuses a mass, or an element with a spring in series, that makes the system too large.
+void check_number_of_states(const NetworkReading& reading, const TomlSection& section);
+
 // A spring in series with a slider, as one of those of an iwan element.
 struct StudySlider {
   StudyValue stiffness, force;

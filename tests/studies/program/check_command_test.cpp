@@ -5,8 +5,10 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "studies/map/map_sample.hpp"
+#include "studies/program/memory_use.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_sample.hpp"
@@ -19,6 +21,7 @@ namespace {
 
 using frahm::studies::check_command;
 using frahm::studies::MapPlan;
+using frahm::studies::MemoryUse;
 using frahm::studies::plan_map;
 using frahm::studies::read_study_with;
 using frahm::studies::sample_map;
@@ -98,6 +101,16 @@ TEST_CASE("A map of less than a second is predicted as that") {
   CHECK(check_command({.study = path, .threads = 1}, out) == 0);
   INFO(out.str());
   CHECK(has(out.str(), "\ntime    less than a second on 1 thread of this machine"));
+  CHECK(has(out.str(), "\nmemory  about "));
+}
+
+TEST_CASE("A run takes the memory of a sample once for each thread") {
+  const MemoryUse use;
+  const std::vector<char> sample(64'000'000, 'a');
+  const double one = use.of_run(1), three = use.of_run(3);
+  const auto of_sample = 0.9 * static_cast<double>(sample.size());  // its pages, but for what lay free before
+  CHECK(one > of_sample);
+  CHECK(three - one > 2.0 * of_sample);
 }
 
 TEST_CASE("A sample of a map is at least a tile and at most the map") {

@@ -4,9 +4,13 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/network_reading.hpp"
 
-// How many contacts are followed exactly.
+// How many contacts are followed exactly, and how large a system may be.
 namespace frahm::studies {
 namespace {
+
+// An orbit takes memory in proportion to the square of the states, and time to their cube: 2 GB and 20 s
+// here.
+constexpr std::size_t most_states = 1000;
 
 using mechanics::ElementKind;
 
@@ -44,6 +48,21 @@ void check_number_of_contacts(const NetworkReading& reading, const TomlSection& 
       rules::too_large,
       "the {}th friction contact; at most {} are followed exactly (law = \"arctan\" has no limit)", contacts,
       periodic::kMostContacts);
+}
+
+void check_number_of_states(const NetworkReading& reading, const TomlSection& section) {
+  const mechanics::Network& network = reading.result.network;
+  const auto has_internal_force = [](const auto& each) {
+    return mechanics::kind_of(each).has_internal_force;
+  };
+  const std::size_t states = 2 * network.masses.size() + static_cast<std::size_t>(std::ranges::count_if(
+                                                             network.elements, has_internal_force));
+  if (states <= most_states) return;
+  section.fail_here(
+      rules::too_large,
+      "with it the system has {} states: two a mass, one a spring in series with a damper or slider; "
+      "at most {}, as its matrices are full: reduce it to the points of interest",
+      states, most_states);
 }
 
 }  // namespace frahm::studies
