@@ -36,6 +36,8 @@ void check_data(const hdf5::Dataset& dataset, Completeness completeness) {
   } while (next_index(index, first, last));
 }
 
+}  // namespace
+
 // Scales and datasets name each other. Ours are read by what the scales say, which lies under a checksum;
 // other readers go by the dataset's list, which does not.
 void check_scales(const hdf5::Group& group) {
@@ -43,23 +45,24 @@ void check_scales(const hdf5::Group& group) {
   for (const std::string& name : group.dataset_names()) {
     const hdf5::Dataset dataset = group.dataset(name);
     if (!dataset.is_numeric() || dataset.is_scale()) continue;
-    for (unsigned d = 0; d < dataset.shape().size(); ++d) {
+    const auto listed = dataset.listed_scales();
+    for (unsigned d = 0; d < listed.size(); ++d) {
       const auto scale = scales.find({dataset.address(), d});
       std::vector<std::uint64_t> expected;
       if (scale != scales.end()) expected.push_back(group.dataset(scale->second).address());
-      if (dataset.scales_along(d) == expected) continue;
+      if (listed[d] == expected) continue;
       throw StoreError(dataset.where(),
                        fmt::format("the list of its dimensions is damaged: dimension {} is {}", d + 1,
                                    scale == scales.end() ? "without a name" : scale->second),
                        "");
     }
   }
+  for (const std::string& name : group.link_names()) {
+    if (!group.has_dataset(name)) check_scales(group.group(name));
+  }
 }
 
-}  // namespace
-
 void check_data(const hdf5::Group& group, Completeness completeness) {
-  check_scales(group);
   for (const std::string& name : group.link_names()) {
     if (group.has_dataset(name)) {
       check_data(group.dataset(name), completeness);

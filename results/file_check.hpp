@@ -15,8 +15,9 @@ struct FileCheck {
   std::vector<std::string> words = {};  // what is checked, the file, what of it
 };
 
-// check_result(), check_opening() and check_dataset() as such checks.
+// check_result(), check_scales(), check_opening() and check_dataset() as such checks.
 FileCheck result_check(const std::filesystem::path& path);
+FileCheck scales_check(const std::filesystem::path& path);
 FileCheck opening_check(const std::filesystem::path& path);
 FileCheck dataset_check(const std::filesystem::path& path, const std::string& dataset,
                         std::size_t dimensions);

@@ -108,11 +108,9 @@ class Dataset : public Object {
     unsigned axis = 0;
   };
   std::vector<Use> uses() const;
-  // Follows the list of its scales, as other readers do: HDF5's high-level library trusts it. Throws
-  // StoreError for a list that is none.
-  void check_scales() const;
-  // The scales along a dimension by that list: their address(); 0 for one of no object.
-  std::vector<std::uint64_t> scales_along(unsigned axis) const;
+  // The scales along each dimension by the list that other readers follow: their address(). Throws
+  // StoreError for a list that is none. HDF5 may not survive a damaged one: only in a child (check_apart).
+  std::vector<std::vector<std::uint64_t>> listed_scales() const;
   std::uint64_t address() const;  // in the file
 
  private:

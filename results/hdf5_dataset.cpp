@@ -162,34 +162,26 @@ void Dataset::attach_scale(unsigned axis, const Dataset& scale) {
 // From REFERENCE_LIST of the scale, pairs of a dataset's address and an axis. DIMENSION_LIST of the dataset
 // says the same in lists of variable length, and HDF5 1.10 reads these beyond its buffer where a file is
 // damaged.
-void Dataset::check_scales() const {
+std::vector<std::vector<std::uint64_t>> Dataset::listed_scales() const {
   const std::string what = "cannot read the list of its scales";
-  checked(H5DSis_scale(id()), where_, what);
-  if (checked(H5Aexists(id(), "DIMENSION_LIST"), where_, what) == 0) return;
+  const std::size_t rank = shape().size();
+  std::vector<std::vector<std::uint64_t>> scales(rank);
+  if (checked(H5Aexists(id(), "DIMENSION_LIST"), where_, what) == 0) return scales;
   const Handle list(checked(H5Aopen(id(), "DIMENSION_LIST", H5P_DEFAULT), where_, what));
   const Handle type(checked(H5Aget_type(list.get()), where_, what));
   const Handle space(checked(H5Aget_space(list.get()), where_, what));
-  const std::size_t rank = shape().size();
-  if (H5Tget_class(type.get()) != H5T_VLEN ||
+  const Handle expected(checked(H5Tvlen_create(H5T_STD_REF_OBJ), where_, what));
+  if (rank == 0 || checked(H5Tequal(type.get(), expected.get()), where_, what) == 0 ||
       H5Sget_simple_extent_npoints(space.get()) != static_cast<hssize_t>(rank))
-    throw StoreError(where_, what, "it has no row for each dimension");
-  const auto visit = [](hid_t, unsigned, hid_t, void*) -> herr_t { return 0; };
-  for (std::size_t d = 0; d < rank; ++d)
-    checked(H5DSiterate_scales(id(), static_cast<unsigned>(d), nullptr, visit, nullptr), where_, what);
-}
-
-std::vector<std::uint64_t> Dataset::scales_along(unsigned axis) const {
-  const std::string what = "cannot read the list of its scales";
-  if (checked(H5Aexists(id(), "DIMENSION_LIST"), where_, what) == 0) return {};
-  std::vector<std::uint64_t> addresses;
-  const auto visit = [](hid_t, unsigned, hid_t scale, void* list) -> herr_t {
-    H5O_info_t info;
-    const bool is_known = H5Oget_info2(scale, &info, H5O_INFO_BASIC) >= 0;
-    static_cast<std::vector<std::uint64_t>*>(list)->push_back(is_known ? info.addr : 0);
-    return 0;
-  };
-  checked(H5DSiterate_scales(id(), axis, nullptr, visit, &addresses), where_, what);
-  return addresses;
+    throw StoreError(where_, "its attribute DIMENSION_LIST must be a list of references for each dimension", "");
+  std::vector<hvl_t> rows(rank);
+  checked(H5Aread(list.get(), expected.get(), rows.data()), where_, what);
+  for (std::size_t d = 0; d < rank; ++d) {
+    const auto* references = static_cast<const hobj_ref_t*>(rows[d].p);
+    scales[d].assign(references, references + rows[d].len);
+  }
+  checked(H5Dvlen_reclaim(expected.get(), space.get(), H5P_DEFAULT, rows.data()), where_, what);
+  return scales;
 }
 
 std::vector<Dataset::Use> Dataset::uses() const {

@@ -129,7 +129,7 @@ void check_result(const std::filesystem::path& path) {
   check_format(hdf5::File::open(path).root());
 }
 
-MapReader::MapReader(const std::filesystem::path& path) : file_(open_checked(path)) {
+MapReader::MapReader(const std::filesystem::path& path) : path_(path), file_(open_checked(path)) {
   const hdf5::Group root = file_.root();
   layout_ = {.title = required_text(root, "title"),
              .source = required_text(root, "source"),
@@ -138,7 +138,7 @@ MapReader::MapReader(const std::filesystem::path& path) : file_(open_checked(pat
 }
 
 MapReader::MapReader(const std::filesystem::path& path, const std::string& group)
-    : file_(open_checked(path)) {
+    : path_(path), file_(open_checked(path)) {
   read_map(file_.root().group(group));
 }
 
@@ -185,6 +185,7 @@ std::vector<Column> MapReader::columns(const std::string& group) const {
 }
 
 void MapReader::check_data(Completeness completeness) const {
+  check_apart(path_, scales_check(path_));
   results::check_data(file_.root(), completeness);
 }
 

@@ -53,6 +53,7 @@ class MapReader {
  private:
   void read_map(const hdf5::Group& group);
 
+  std::filesystem::path path_;
   hdf5::File file_;
   MapLayout layout_;
   std::vector<hdf5::Dataset> datasets_;  // of the variables

@@ -37,7 +37,8 @@ class Walk {
     for (const std::string& name : group.link_names()) {
       if (!group.has_dataset(name)) continue;
       try {
-        group.dataset(name).check_scales();
+        group.dataset(name).is_scale();
+        group.dataset(name).listed_scales();
       } catch (const StoreError&) {  // as below
       }
     }

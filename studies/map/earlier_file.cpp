@@ -18,8 +18,11 @@ constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";  // HDF5 file f
 
 void check_is_hdf5(const std::filesystem::path& path) {
   std::error_code ignored;  // opening reports the error
-  if (std::filesystem::is_directory(path, ignored))
+  const std::filesystem::file_status kind = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(kind))
     throw engine::IoError(path, "is a folder; --from needs the result of a map");
+  if (std::filesystem::exists(kind) && !std::filesystem::is_regular_file(kind))
+    throw engine::IoError(path, "is a pipe or a device; --from needs the result of a map");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw engine::IoError(path, "open", errno);

@@ -168,6 +168,36 @@ def doubles_for_references(file, place):
                 item.attrs[key] = np.arange(200.0)
 
 
+def objects(rows):
+    """Rows of different lengths, as h5py takes them."""
+    array = np.empty(len(rows), dtype=object)
+    array[:] = rows
+    return array
+
+
+# What is no list of dimensions: value and type of the attribute.
+NO_LISTS = {
+    "doubles": lambda file: (np.arange(200.0), None),
+    "a few doubles": lambda file: (np.arange(7.0), None),
+    "one number": lambda file: (np.int64(3), None),
+    "plain references": lambda file: (np.array([file["r"].ref] * 2, dtype=h5py.ref_dtype), None),
+    "regions": lambda file: (np.array([file["r"].regionref[0:1]] * 2, dtype=h5py.regionref_dtype), None),
+    "a text": lambda file: (b"abc", "S3"),
+    "nothing": lambda file: (h5py.Empty("f8"), None),
+    "lists of numbers": lambda file: (objects([np.arange(3.0), np.arange(2.0)]), h5py.vlen_dtype("f8")),
+    "too many lists": lambda file: (objects([np.array([file["r"].ref], dtype=h5py.ref_dtype) for _ in range(9)]),
+                                    h5py.vlen_dtype(h5py.ref_dtype)),
+}
+
+
+def replace_list(name, kind):
+    def change(file, place):
+        value, dtype = NO_LISTS[kind](file)
+        del file[name].attrs["DIMENSION_LIST"]
+        file[name].attrs.create("DIMENSION_LIST", value, dtype=dtype)
+    return change
+
+
 def null_space(file, place):
     name = "main_peak"
     del file[name]
@@ -228,11 +258,20 @@ def check_made_to_harm(bench, data):
     for case, (change, words) in REFUSED.items():
         check(changed(bench, data, change), case, codes=(6,), words=words)
     check(changed(bench, data, doubles_for_references), "doubles for references", codes=(0, 6))
+    for kind in NO_LISTS:
+        for name in ("main_peak", "status"):
+            place = changed(bench, data, replace_list(name, kind))
+            check(place, f"{kind} for the dimensions of {name}", codes=(6,), words="DIMENSION_LIST",
+                  commands=COMMANDS[1:] + (("merge", OUTPUT),))
     check(changed(bench, data, huge_text), "an array of texts for the title", codes=(6,))
     place = changed(bench, data, escapes)
     outcome = place.call("status", OUTPUT)
     assert outcome.code == 0 and not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", outcome.out), repr(outcome.out)
-    print(f"{len(REFUSED) + 3} results made to do harm", flush=True)
+    place = bench.place(small_map(bench))
+    os.mkfifo(place.path("pipe.h5"))
+    outcome = place.run("--from", "pipe.h5")
+    assert outcome.code == 6 and "pipe" in outcome.err, outcome
+    print(f"{len(REFUSED) + 4 + 2 * len(NO_LISTS)} results made to do harm", flush=True)
 
 
 def check_repacked(bench, data):
