@@ -192,6 +192,12 @@ Parameters read_parameters(const StudyContext& context, const TomlValue& root,
     throw context.source.error_at(rules::wrong_type, section->position,
                                   "[parameters]: expected a table, found {}", described(section->value));
   }
+  // Each value is checked at every corner of the grid, with all others: a time in proportion to the square.
+  constexpr std::size_t most_parameters = 2000;
+  if (entries->size() > most_parameters)
+    throw context.source.error_at(rules::too_large, (*entries)[most_parameters].position,
+                                  "[parameters]: {} of them; at most {} are read", entries->size(),
+                                  most_parameters);
   for (const TomlEntry& entry : *entries) parameters.list.push_back(named_parameter(context, entry));
   for (std::size_t i = 0; i < entries->size(); ++i) {
     read_definition(context, (*entries)[i].value, folder, parameters, parameters.list[i]);
