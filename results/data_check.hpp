@@ -11,8 +11,9 @@ enum class Completeness { whole, part };
 // Throws StoreError, naming the dataset, for the first that cannot be read.
 void check_data(const hdf5::Group& group, Completeness completeness);
 
-// Compares the lists of dimensions of a group and of those within it with what its scales say. Throws StoreError,
-// naming the dataset, for the first that differs. Only in a child (check_apart): see Dataset::listed_scales().
+// Compares the lists of dimensions of a group and of those within it with what its scales say. Throws
+// StoreError, naming the dataset, for the first that differs. Only in a child (check_apart): see
+// Dataset::listed_scales().
 void check_scales(const hdf5::Group& group);
 
 }  // namespace frahm::results

@@ -32,7 +32,8 @@ FileCheck check_called(const std::vector<std::string>& words) {
   if (words.size() == 2 && words[0] == "file") return opening_check(words[1]);
   if (words.size() == 4 && words[0] == "dataset")
     return dataset_check(words[1], words[2], words[3] == "2" ? 2 : 1);
-  throw std::invalid_argument("the check of a file is one of: result FILE, scales FILE, file FILE, dataset FILE NAME 1|2");
+  throw std::invalid_argument(
+      "the check of a file is one of: result FILE, scales FILE, file FILE, dataset FILE NAME 1|2");
 }
 
 }  // namespace frahm::results

@@ -159,9 +159,7 @@ void Dataset::attach_scale(unsigned axis, const Dataset& scale) {
   checked(H5DSattach_scale(id(), scale.id(), axis), where_, "cannot attach the scale " + scale.name());
 }
 
-// From REFERENCE_LIST of the scale, pairs of a dataset's address and an axis. DIMENSION_LIST of the dataset
-// says the same in lists of variable length, and HDF5 1.10 reads these beyond its buffer where a file is
-// damaged.
+// From DIMENSION_LIST, which has a list of references for each dimension.
 std::vector<std::vector<std::uint64_t>> Dataset::listed_scales() const {
   const std::string what = "cannot read the list of its scales";
   const std::size_t rank = shape().size();
@@ -173,7 +171,8 @@ std::vector<std::vector<std::uint64_t>> Dataset::listed_scales() const {
   const Handle expected(checked(H5Tvlen_create(H5T_STD_REF_OBJ), where_, what));
   if (rank == 0 || checked(H5Tequal(type.get(), expected.get()), where_, what) == 0 ||
       H5Sget_simple_extent_npoints(space.get()) != static_cast<hssize_t>(rank))
-    throw StoreError(where_, "its attribute DIMENSION_LIST must be a list of references for each dimension", "");
+    throw StoreError(where_, "its attribute DIMENSION_LIST must be a list of references for each dimension",
+                     "");
   std::vector<hvl_t> rows(rank);
   checked(H5Aread(list.get(), expected.get(), rows.data()), where_, what);
   for (std::size_t d = 0; d < rank; ++d) {
@@ -184,6 +183,9 @@ std::vector<std::vector<std::uint64_t>> Dataset::listed_scales() const {
   return scales;
 }
 
+// From REFERENCE_LIST of the scale, pairs of a dataset's address and an axis. DIMENSION_LIST of the dataset
+// says the same in lists of variable length, and HDF5 1.10 reads these beyond its buffer where a file is
+// damaged.
 std::vector<Dataset::Use> Dataset::uses() const {
   const std::string what = "cannot read where it is attached";
   constexpr const char* list_name = "REFERENCE_LIST";
