@@ -37,13 +37,20 @@ template <int N, int H>
 void Walk<N, H>::follow(double phase, double length, Passage<N, H>& passage) {
   constexpr int kMostEvents = 20000;
   int at_this_instant = 0;
+  SearchWork& work = flow_.work();
   while (passage.failure == nullptr) {
+    work.add(flow_.step_work());
+    if (work.is_over()) {
+      passage.failure = kSearchIsLong;
+      break;
+    }
     w_.expanded = flow_.step(w_.left, flow_.mode(w_.mode), w_.right, w_.expansion);
     const GuardEvent event = first_event(flow_, w_);
     const BendEvent bend = first_bend(flow_, w_);
     const double next = std::min(event.at, bend.at), room = length - w_.clock;
     if (next < room && next <= 1.0) {
       w_.knows_left = false;
+      work.add(flow_.event_work());
       at_this_instant = next > 0.0 ? 0 : at_this_instant + 1;
       if (bend.at < event.at)
         pass_bend(bend, phase, passage);

@@ -119,12 +119,10 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State&
   return std::nullopt;
 }
 
-// Whether all motions of a point together have taken as many steps as some seconds allow.
+// Whether all motions of a point together have taken the work that it may take.
 template <int N, int H>
 bool StableSearch<N, H>::is_over(Orbits& found) const {
-  const double most_steps = 6e7 / static_cast<double>(flow_.equations().states());
-  if (found.failure == nullptr && found.passages * flow_.equations().period > most_steps)
-    found.failure = kSearchIsLong;
+  if (found.failure == nullptr && flow_.work().is_over()) found.failure = kSearchIsLong;
   return found.failure != nullptr;
 }
 
@@ -293,6 +291,7 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::keep(const Orbit<N, H>& o
 template <int N, int H>
 void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
                               Orbit<N, H>& orbit) {
+  flow_.work().begin();
   const StableOrbit<N, H>& told = found.stable[which];
   orbit = {};
   orbit.z = told.returns.front();
@@ -309,6 +308,7 @@ void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbit
 template <int N, int H>
 void StableSearch<N, H>::tell_motion(const mechanics::LinearSystem& system, const typename S::State& z,
                                      Orbit<N, H>& orbit) {
+  flow_.work().begin();
   flow_.set_forcing(over_multiple(system, kMotion));
   orbit.z = z;
   orbit.section = 0.0;

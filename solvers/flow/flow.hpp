@@ -5,6 +5,7 @@
 
 #include "solvers/flow/configuration.hpp"
 #include "solvers/flow/equations.hpp"
+#include "solvers/flow/search_work.hpp"
 #include "solvers/flow/tangent_path.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
@@ -102,6 +103,12 @@ class Flow {
   // The same of a state at `phase`, beside where recorded supports take it.
   double energy_scale(const typename S::State& z, double phase) const;
 
+  // Of all motions that are followed on this flow; and what a step and an event add to it [s].
+  SearchWork& work() { return work_; }
+  const SearchWork& work() const { return work_; }
+  double step_work() const { return step_work_; }
+  double event_work() const { return event_work_; }
+
   // The table of modes: an index stays good until the next set_forcing.
   std::size_t mode_index(ContactMask stuck, ContactMask positive, ContactMask beyond);
   const Mode<N, H>& mode(std::size_t index) const { return modes_[index]; }
@@ -153,6 +160,7 @@ class Flow {
   void expand_oscillators(const Instant<N, H>& at, Expansion<N, H>& x) const;
   void expand_by_recurrence(const Instant<N, H>& at, const Mode<N, H>& mode, Expansion<N, H>& x) const;
   void scale_matrices(const mechanics::LinearSystem& system);
+  void reckon_work();
   void bound_tables();
   struct ConfigurationKey {
     ContactMask stuck, beyond;
@@ -166,6 +174,8 @@ class Flow {
   std::size_t configuration_index(ContactMask stuck, ContactMask beyond);
 
   StepEquations<N, H> equations_;
+  SearchWork work_;
+  double step_work_ = 0.0, event_work_ = 0.0;
   // The tables are searched by their keys; entries beyond the keys are of earlier systems, kept for their
   // storage.
   std::vector<ConfigurationKey> configuration_keys_;

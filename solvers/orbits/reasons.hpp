@@ -7,8 +7,6 @@ namespace frahm::periodic {
 
 inline constexpr const char* kTooManySteps =
     "the excitation is too slow, or the system too stiff: more than 200000 steps a period";
-inline constexpr const char* kSearchIsLong =
-    "the search for stable orbits was ended after some seconds: so stiff a system takes many steps a period";
 inline constexpr const char* kUnresolved =
     "the response is so much larger than the static one that rounding hides the forces";
 inline constexpr const char* kUnbounded =

@@ -19,7 +19,6 @@ struct ShootingOptions {
   double pays = 0.1;           // part of the residual that a Newton step must remove, else it is refused
   int most_halvings = 4;       // of a refused step, of a large system or under laws that are not monotone
   int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
-  double most_steps = 2e7;     // of all passages together: about a second of work
   double most_steps_a_period = 2e5;
   double most_magnification = 1e13;  // of the static response: beyond, rounding of the orbit hides the forces
 };

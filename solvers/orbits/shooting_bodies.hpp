@@ -63,10 +63,7 @@ template <int N, int H>
 typename Shooting<N, H>::Verdict Shooting<N, H>::judge() {
   if (current_.passage.failure != nullptr) return Verdict::gave_up;
   if (!(current_.relative > options_.tolerance)) return Verdict::converged;
-  // The time of a step is proportional to the number of states.
-  const double size = std::max(1.0, static_cast<double>(flow_.equations().states()) / 4.0);
-  const bool too_long = passages_ * flow_.equations().period * size > options_.most_steps;
-  return passages_ > options_.most_passages || too_long ? Verdict::gave_up : Verdict::go_on;
+  return passages_ > options_.most_passages ? Verdict::gave_up : Verdict::go_on;
 }
 
 template <int N, int H>

@@ -152,8 +152,10 @@ Eigen::VectorXd Coexistence::start_state(int index) const {
 void Coexistence::tell(Orbit& orbit) {
   if (stable_.empty()) {
     orbit = Orbit{};
-    orbit.status = Status::not_periodic;
-    orbit.reason = periodic::none_stable(wanted_.starts, wanted_.most_multiple, found_unstable_);
+    const bool was_ended = integrator_.work().is_over();
+    orbit.status = was_ended ? Status::failed : Status::not_periodic;
+    orbit.reason = was_ended ? periodic::kSearchIsLong
+                             : periodic::none_stable(wanted_.starts, wanted_.most_multiple, found_unstable_);
     orbit.residual = kNone;
     orbit.coexisting = 0;
   } else {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "solvers/flow/search_work.hpp"
 #include "solvers/smooth/equation.hpp"
 #include "solvers/smooth/trajectory.hpp"
 
@@ -48,8 +49,12 @@ class Integrator {
   // not reach it.
   bool follow(Eigen::VectorXd& state, double t, double duration, const Eigen::VectorXd& scale);
 
+  // Of all passages: one fails where it is over.
+  periodic::SearchWork& work() { return work_; }
+
  private:
   class Cvodes;
+  periodic::SearchWork work_;
   std::unique_ptr<Cvodes> cvodes_;
 };
 

@@ -65,7 +65,9 @@ class SmoothSolver final : public periodic::ResponseSolver {
         integrator_(equation_),
         shooting_(equation_, integrator_),
         coexistence_(equation_, integrator_, wanted),
-        observables_(assembly_, equation_, quantities) {}
+        observables_(assembly_, equation_, quantities) {
+    integrator_.work().set_limit(periodic::kMostWork);
+  }
 
   void set_values(const mechanics::NetworkValues& values) override {
     if (exact_) exact_->set_values(values);
@@ -171,6 +173,7 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
 }
 
 void SmoothSolver::search() {
+  integrator_.work().begin();
   equation_.set(system_, values_);  // after an orbit of several periods
   if (system_.monotone) return search_one();
   coexistence_.find(system_, values_, orbit_);

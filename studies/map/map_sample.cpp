@@ -3,6 +3,7 @@
 #include <chrono>
 #include <numeric>
 #include <span>
+#include <vector>
 
 #include "results/chunk_codec.hpp"
 #include "results/storage.hpp"
@@ -17,6 +18,7 @@ using Clock = std::chrono::steady_clock;
 // Dear tiles may differ in cost several times: one or two of them would tell little of the rest.
 constexpr std::uint64_t enough_tiles = 8;
 constexpr double most_times = 4.0;  // of the time given
+constexpr double dear_tile = 2.0;   // [s]; beyond, check would keep its user waiting
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -37,47 +39,90 @@ std::vector<std::uint64_t> index_in(const MapBox& box, std::uint64_t k) {
   return index;
 }
 
-void add(const MapPlan& plan, std::uint64_t tile, const TileRecord& record,
-         const std::vector<results::Variable>& variables, MapSample& sample) {
-  const MapBox box = plan.grid.box(tile);
+// Computes tiles of a map in one thread. The plan must outlive it.
+class TileSampler {
+ public:
+  explicit TileSampler(const MapPlan& plan)
+      : plan_(plan), variables_(map_layout(plan, {}).variables), kernel_(job_of(plan).make_kernel({})) {}
+
+  // Adds a tile to the sample. Returns the seconds it took.
+  double add(std::uint64_t tile, MapSample& sample);
+
+ private:
+  void add_record(const MapBox& box, MapSample& sample) const;
+
+  const MapPlan& plan_;
+  std::vector<results::Variable> variables_;
+  engine::Kernel kernel_;
+  engine::Bytes bytes_;
+  TileRecord record_;
+};
+
+double TileSampler::add(std::uint64_t tile, MapSample& sample) {
+  bytes_.clear();
+  const auto start = Clock::now();
+  kernel_(tile, bytes_);
+  const double seconds = seconds_since(start);
+  sample.seconds += seconds;
+  const MapBox box = plan_.grid.box(tile);
+  decode(bytes_, box.points() * plan_.variables.size(), record_);
+  add_record(box, sample);
+  return seconds;
+}
+
+void TileSampler::add_record(const MapBox& box, MapSample& sample) const {
   const std::size_t points = box.points();
   sample.points += points;
   const auto start = Clock::now();
-  for (std::size_t q = 0; q < variables.size(); ++q) {
-    const auto values = std::span(record.values).subspan(q * points, points);
-    const results::Bytes raw = results::to_storage(variables[q], values);
+  for (std::size_t q = 0; q < variables_.size(); ++q) {
+    const auto values = std::span(record_.values).subspan(q * points, points);
+    const results::Bytes raw = results::to_storage(variables_[q], values);
     sample.raw_bytes += raw.size();
-    sample.stored_bytes += results::encode_chunk(raw, results::element_size(variables[q].type)).size();
+    sample.stored_bytes += results::encode_chunk(raw, results::element_size(variables_[q].type)).size();
   }
   sample.encoding_seconds += seconds_since(start);
-  if (sample.failed == 0 && !record.failed.empty()) {
-    sample.failed_at = point_text(plan.study, index_in(box, record.failed.front().offset));
-    sample.reason = record.failed.front().reason;
+  if (sample.failed == 0 && !record_.failed.empty()) {
+    sample.failed_at = point_text(plan_.study, index_in(box, record_.failed.front().offset));
+    sample.reason = record_.failed.front().reason;
   }
-  sample.failed += record.failed.size();
+  sample.failed += record_.failed.size();
+}
+
+// The same map with a tile for each point.
+MapPlan in_single_points(const MapPlan& plan) {
+  MapPlan points = plan;
+  points.grid.tile.assign(points.grid.shape.size(), 1);
+  points.tiles = points.grid.tiles();
+  return points;
 }
 
 }  // namespace
 
 MapSample sample_map(const MapPlan& plan, double seconds) {
-  const std::vector<results::Variable> variables = map_layout(plan, {}).variables;
-  const engine::Kernel kernel = job_of(plan).make_kernel({});
   const std::uint64_t tiles = plan.grid.tiles(), stride = spreading_stride(tiles);
+  const auto points_of = [&](std::uint64_t tile) {
+    return static_cast<double>(plan.grid.box(tile).points());
+  };
   MapSample sample;
-  TileRecord record;
-  engine::Bytes bytes;
+  // Of dear tiles the first point alone is computed, and counts for all of its tile.
+  const MapPlan single = in_single_points(plan);
+  TileSampler of_points(single), of_tiles(plan);
+  const auto add_first_point = [&](std::uint64_t tile) {
+    const double taken = of_points.add(single.grid.tile_of(plan.grid.box(tile).start), sample);
+    sample.costs.push_back({tile, taken * points_of(tile)});
+  };
+  add_first_point(0);
+  const bool is_dear = sample.costs.front().seconds > dear_tile;
+  if (!is_dear) sample = {};
   const auto goes_on = [&](std::uint64_t k) {
     return k == 0 || sample.seconds < seconds || (k < enough_tiles && sample.seconds < most_times * seconds);
   };
-  for (std::uint64_t k = 0; k < tiles && goes_on(k); ++k) {
+  for (std::uint64_t k = is_dear ? 1 : 0; k < tiles && goes_on(k); ++k) {
     const std::uint64_t tile = k * stride % tiles;
-    bytes.clear();
-    const auto start = Clock::now();
-    kernel(tile, bytes);
-    sample.costs.push_back({tile, seconds_since(start)});
-    sample.seconds += sample.costs.back().seconds;
-    decode(bytes, plan.grid.box(tile).points() * plan.variables.size(), record);
-    add(plan, tile, record, variables, sample);
+    if (is_dear)
+      add_first_point(tile);
+    else
+      sample.costs.push_back({tile, of_tiles.add(tile, sample)});
   }
   return sample;
 }

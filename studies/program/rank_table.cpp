@@ -35,6 +35,13 @@ void print_limit(const RankCosts& costs, int ranks, int threads, std::ostream& o
              100.0 * enough, limit == ranks ? "up to" : "beyond", limit);
 }
 
+// Of a tile [s].
+double mean_cost(const MapSample& sample) {
+  double seconds = 0.0;
+  for (const TileCost& each : sample.costs) seconds += each.seconds;
+  return seconds / static_cast<double>(sample.costs.size());
+}
+
 }  // namespace
 
 void print_rank_table(const Grid& grid, const MapSample& sample, int ranks, int threads, double start_seconds,
@@ -52,8 +59,7 @@ void print_rank_table(const Grid& grid, const MapSample& sample, int ranks, int 
       "\nOn ranks of {} thread{} each, by a replay of the hand-out with the cost of {} sampled tiles ({:.3g} "
       "ms each on average),\n{:.0f} us a request at rank 0, {:.0f} ms to its answer, assembly at {:.0f} MB/s "
       "a core on rank 0 alone:\n",
-      threads, threads == 1 ? "" : "s", sample.costs.size(),
-      1e3 * sample.seconds / static_cast<double>(sample.costs.size()), 1e6 * costs.service,
+      threads, threads == 1 ? "" : "s", sample.costs.size(), 1e3 * mean_cost(sample), 1e6 * costs.service,
       1e3 * costs.answer, 1e-6 * static_cast<double>(sample.raw_bytes) / sample.encoding_seconds);
   fmt::print(out, "{:>7}{:>9}{:>16}{:>12}{:>10}{:>11}{:>11}{:>11}{:>11}\n", "ranks", "cores", "wall time",
              "efficiency", "of tiles", "start", "waiting", "end", "assembly");

@@ -98,6 +98,26 @@ TEST_CASE("a motion that takes too many steps fails with that reason") {
   CHECK(std::isnan(orbit.residual));
 }
 
+TEST_CASE("passages end where the work of their search is over, and begin with the next search") {
+  Rig rig(1e5);
+  Integrator integrator(rig.equation);
+  Shooting shooting(rig.equation, integrator);
+  integrator.work().set_limit(1e-3);  // some 150 steps
+  for (int search = 0; search < 2; ++search) {
+    integrator.work().begin();
+    Orbit orbit;
+    orbit.z = Eigen::VectorXd::Zero(4);
+    shooting.find(rig.scale(), orbit);
+    CHECK(orbit.status == Status::failed);
+    CHECK(orbit.reason == periodic::kSearchIsLong);
+    CHECK(orbit.passage.steps > 100);
+  }
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(4);
+  CHECK(!integrator.follow(z, 0.0, rig.equation.period(), rig.scale()));
+  integrator.work().begin();
+  CHECK(integrator.follow(z, 0.0, rig.equation.period(), rig.scale()));
+}
+
 TEST_CASE("a tolerance below rounding fails with a reason") {
   Rig rig(1e5);
   Integrator integrator(rig.equation, {.tolerance = 1e-18});
