@@ -30,14 +30,28 @@ void check_value(const ValueKey& key, const Element& element, double value) {
   if (key.range == Range::positive && value == 0.0) refuse(thing, value, "must be positive");
 }
 
+// A pivot of Cholesky's decomposition below this part of the largest is only rounding away from zero.
+constexpr double kSmallestPivot = 1e-13;
+
+// Tells a node whose own entry is too small beside that of another.
+void refuse_lost_entry(const Eigen::MatrixXd& matrix, const std::string& name, const Network& network) {
+  Eigen::Index least = 0, most = 0;
+  const double smallest = matrix.diagonal().minCoeff(&least), largest = matrix.diagonal().maxCoeff(&most);
+  if (!(smallest > 0.0) || std::sqrt(smallest) > kSmallestPivot * std::sqrt(largest)) return;
+  std::ostringstream rule;
+  rule << "is lost in rounding beside " << largest << " at '"
+       << network.masses[static_cast<std::size_t>(most)] << "'";
+  refuse("the " + name + " at '" + network.masses[static_cast<std::size_t>(least)] + "'", smallest,
+         rule.str());
+}
+
 void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string& name,
-                               const std::string& hint) {
+                               const std::string& hint, const Network& network) {
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
-  // A pivot that is only rounding away from zero is a singular matrix too.
-  const double smallest_pivot = 1e-13 * std::sqrt(matrix.diagonal().cwiseAbs().maxCoeff());
-  if (factor.info() != Eigen::Success || !(factor.matrixLLT().diagonal().minCoeff() > smallest_pivot)) {
-    throw MechanicsError("the " + name + " matrix of the moving nodes is not positive definite: " + hint);
-  }
+  const double smallest_pivot = kSmallestPivot * std::sqrt(matrix.diagonal().cwiseAbs().maxCoeff());
+  if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > smallest_pivot) return;
+  refuse_lost_entry(matrix, name, network);
+  throw MechanicsError("the " + name + " matrix of the moving nodes is not positive definite: " + hint);
 }
 
 }  // namespace
@@ -227,9 +241,11 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   weigh_laws(values, system);
   require_positive_definite(system.M, "mass",
                             "a mass of zero needs an inerter that moves with it; a spring and a slider in "
-                            "series are one jenkins element");
+                            "series are one jenkins element",
+                            network_);
   require_positive_definite(system.K, "stiffness",
-                            "some motion is held by no spring, or a negative stiffness is too large");
+                            "some motion is held by no spring, or a negative stiffness is too large",
+                            network_);
   set_structural_damping(*this, values.damping, system);
 }
 

@@ -43,7 +43,8 @@ std::vector<results::Column> mode_columns(const Study& study, periodic::LinearMo
 
 std::vector<double> parameters_at_first_point(const Study& study) {
   std::vector<double> parameters = study.parameters.nominal();
-  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) set_along(*study.map(), d, 0, parameters);
+  const std::size_t dimensions = study.map() == nullptr ? 0 : study.map()->dimensions.size();
+  for (std::size_t d = 0; d < dimensions; ++d) set_along(*study.map(), d, 0, parameters);
   study.parameters.complete(std::span<double>(parameters));
   return parameters;
 }

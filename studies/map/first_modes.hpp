@@ -5,7 +5,7 @@
 
 namespace frahm::studies {
 
-// The numbers of the network at the first point of a map.
+// The numbers of the network at the first point of a map; without axes, as the study states them.
 std::vector<double> parameters_at_first_point(const Study& study);
 mechanics::NetworkValues values_at_first_point(const Study& study);
 

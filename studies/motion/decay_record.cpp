@@ -33,8 +33,9 @@ std::string ending(const Study& study, const FreeDecay& decay) {
     case DecayEnd::creeping:
       // With less than critical damping friction stops it in the end, where it passes its rest by less than
       // rounding.
-      return fmt::format("creeps towards its rest; followed to {:.6g}{}, where {}", decay.duration, seconds,
-                         left);
+      return fmt::format(
+          "creeps towards its rest, or stops there within rounding; followed to {:.6g}{}, where {}",
+          decay.duration, seconds, left);
     case DecayEnd::decayed:
       return fmt::format("never stops; after {:.6g}{} {}", decay.duration, seconds, left);
     case DecayEnd::cut_off:

@@ -18,6 +18,7 @@
 #include "studies/map/map_record.hpp"
 #include "studies/map/map_sample.hpp"
 #include "studies/map/map_summary.hpp"
+#include "studies/map/motion_cost.hpp"
 #include "studies/map/unfit_systems.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
@@ -44,9 +45,18 @@ void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
   fmt::print(out, "\ntiles   {} of {} points\n", grid.tiles(), grid.box(0).points());
 }
 
+std::string about_seconds(double seconds) {
+  return seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds);
+}
+
+// What a result holds of a variable or an axis beside its numbers: name, units, place in the file [bytes].
+constexpr double bytes_of_variable = 5e3;
+
 // A thread computes whole tiles, so that some threads may wait for the last.
-void print_prediction(const Study& study, const Grid& grid, const MapSample& sample, const MemoryUse& memory,
+void print_prediction(const MapPlan& plan, const MapSample& sample, const MemoryUse& memory,
                       int wanted_threads, std::ostream& out) {
+  const Study& study = plan.study;
+  const Grid& grid = plan.grid;
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
   const int threads = engine::team_size(wanted_threads, grid.tiles());
   const std::uint64_t turns =
@@ -55,12 +65,14 @@ void print_prediction(const Study& study, const Grid& grid, const MapSample& sam
       sample.seconds * share * static_cast<double>(turns) / static_cast<double>(grid.tiles());
   const double rate = static_cast<double>(sample.points) / sample.seconds;
   fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} {}/s on one, from {} points)\n",
-             seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds), threads,
-             threads == 1 ? "" : "s", rate, answers_noun(study), sample.points);
+             about_seconds(seconds), threads, threads == 1 ? "" : "s", rate, answers_noun(study),
+             sample.points);
   fmt::print(out, "memory  about {}\n", readable_size(memory.of_run(threads)));
-  fmt::print(out, "file    about {} ({} before compression)\n",
-             readable_size(static_cast<double>(sample.stored_bytes) * share),
-             readable_size(static_cast<double>(sample.raw_bytes) * share));
+  fmt::print(
+      out, "file    about {} (its numbers {} before compression)\n",
+      readable_size(static_cast<double>(sample.stored_bytes) * share +
+                    bytes_of_variable * static_cast<double>(plan.variables.size() + grid.shape.size())),
+      readable_size(static_cast<double>(sample.raw_bytes) * share));
   if (sample.failed > 0) {
     fmt::print(out, "without {}: {} of the {} points tried, the first at {}: {}\n",
                study.transient() ? "a motion" : "a response", sample.failed, sample.points, sample.failed_at,
@@ -162,7 +174,9 @@ int check_motion(const Study& study, Listing listing, std::ostream& out) {
     fmt::print(out, "initial    {}: {:.6g}{}, {:.6g}{}\n", study.network.masses[i], initial.displacement[i],
                unit(" m", " rad"), initial.velocity[i], unit(" m/s", " rad/s"));
   }
-  fmt::print(out, "samples    {}\n\n", study.motion()->samples);
+  fmt::print(out, "samples    {}\n", study.motion()->samples);
+  if (study.transient()) fmt::print(out, "time       {}\n", about_seconds(predicted_motion_seconds(study)));
+  fmt::print(out, "\n");
   try {
     const ModesAtPoint modes = modes_at_point(study, values);
     if (study.transient()) print_records(study, modes.sliding, out);
@@ -236,7 +250,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   }
   print_grid(study, plan.grid, out);
   print_samples(study, out);
-  print_prediction(study, plan.grid, sample, memory, options.threads, out);
+  print_prediction(plan, sample, memory, options.threads, out);
   print_unfit_systems(study, sample, out);
   if (study.sweep()) {
     print_orbits_cost(plan, options.threads, out);

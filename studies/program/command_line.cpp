@@ -77,20 +77,12 @@ void add_progress(CLI::App& command, engine::ProgressStyle& style) {
       ->take_last();
 }
 
-// Which options of a run the line has, be their texts empty.
-struct RunGiven {
-  bool shard, output, from, time_budget, rank_silence;
-};
-
-int run_as_given(CommandLine& line, const RunGiven& given, std::ostream& out) {
+int run_as_given(CommandLine& line, std::ostream& out) {
   RunCommandOptions& options = line.run;
-  options.run.shard = given.shard ? shard_of(line.shard) : shard_of_array_task(std::getenv);
-  if (given.output && options.run.output.empty())
-    throw StudyError(rules::wrong_option, "--output \"\": name the result file");
-  if (given.from && options.from.empty())
-    throw StudyError(rules::wrong_option, "--from \"\": name the result whose points are taken over");
-  if (given.time_budget) options.run.time_budget = time_span_of("--time-budget", line.time_budget);
-  if (given.rank_silence) options.run.rank_silence = time_span_of("--rank-silence", line.rank_silence);
+  options.run.shard = line.shard.empty() ? shard_of_array_task(std::getenv) : shard_of(line.shard);
+  if (!line.time_budget.empty()) options.run.time_budget = time_span_of("--time-budget", line.time_budget);
+  if (!line.rank_silence.empty())
+    options.run.rank_silence = time_span_of("--rank-silence", line.rank_silence);
   const bool leads = !options.run.ranks || options.run.ranks->rank() == 0;
   return leads ? run_command(options, out) : assist_command(options);
 }
@@ -118,11 +110,9 @@ void add_run(CLI::App& program, CommandLine& line) {
       ->type_name("TIME");
   add_set(*run, options.set);
   add_progress(*run, options.run.progress);
-  run->callback([&, run] {
+  run->callback([&] {
     line.is_run = true;
-    const RunGiven given{run->count("--shard") > 0, run->count("--output") > 0, run->count("--from") > 0,
-                         run->count("--time-budget") > 0, run->count("--rank-silence") > 0};
-    line.action = [&, given](std::ostream& out) { return run_as_given(line, given, out); };
+    line.action = [&](std::ostream& out) { return run_as_given(line, out); };
   });
 }
 
@@ -453,10 +443,18 @@ std::string asked_help(const CLI::App& program, const Command& tree) {
   return is_of_kind ? help_for(tree, unknown.front()) : help_text(command);
 }
 
-// The first argument that could not be told in a message, kept in a note or stored in a result.
-std::optional<int> first_unreadable(int argc, const char* const* argv) {
+// What is wrong with the first argument that could not be told in a message, kept in a note or stored in a
+// result, or that is empty, as no value of ours is.
+std::optional<std::string> unfit_argument(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
-    if (!is_plain_line(argv[i])) return i;
+    std::string shown = argv[i];
+    if (shown.empty()) return fmt::format("argument {}, after \"{}\", is empty", i, argv[i - 1]);
+    if (shown.starts_with("--") && shown.ends_with("=")) return fmt::format("\"{}\" lacks its value", shown);
+    if (is_plain_line(shown)) continue;
+    std::ranges::replace_if(
+        shown, [](char c) { return c == '\n' || c == '\t'; }, '?');
+    return fmt::format("argument {} \"{}\": must be UTF-8 without control characters such as a line feed", i,
+                       shown);
   }
   return std::nullopt;
 }
@@ -470,13 +468,8 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
   line.branch.command = line.run.command;
   line.commands = told(program, "frahm");
-  if (const auto wrong = first_unreadable(argc, argv)) {
-    std::string shown = argv[*wrong];
-    std::ranges::replace_if(
-        shown, [](char c) { return c == '\n' || c == '\t'; }, '?');
-    complaints << fmt::format(
-        "frahm: argument {} \"{}\": must be UTF-8 without control characters such as a line feed\n", *wrong,
-        shown);
+  if (const auto wrong = unfit_argument(argc, argv)) {
+    complaints << "frahm: " << *wrong << '\n';
     return exit_code::wrong_input;
   }
   try {

@@ -279,8 +279,6 @@ std::vector<std::string> all_words() {
 }  // namespace
 
 int explain_command(const std::string& word, std::ostream& out) {
-  if (word.empty())
-    throw StudyError(rules::unknown_name, "explain: the word is empty: give a key, unit, quantity or status");
   std::vector<std::string> found;
   for (auto* called : {keys_called, types_called, choices_called, quantities_called}) {
     for (std::string& text : called(word)) found.push_back(std::move(text));

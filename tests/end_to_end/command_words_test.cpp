@@ -59,6 +59,17 @@ TEST_CASE("a wrong value of an option is one line in our words, with what is pos
   CHECK(complaint({"rnu"}) == "frahm: unknown command \"rnu\"; did you mean \"run\"?");
 }
 
+TEST_CASE("an empty argument is refused, whatever it is for") {
+  for (const Names& wrong : {Names{"run", "s.toml", "-o", ""}, Names{"export", "r.h5", "-o", ""},
+                             Names{"report", "r.h5", "-o", ""}, Names{"point", "s.toml", "--history", ""},
+                             Names{"new", "sweep", ""}, Names{"merge", ""}}) {
+    const std::string after = wrong[wrong.size() - 2];
+    CHECK(complaint(wrong) ==
+          "frahm: argument " + std::to_string(wrong.size()) + ", after \"" + after + "\", is empty");
+  }
+  CHECK(complaint({"export", "r.h5", "--output="}) == "frahm: \"--output=\" lacks its value");
+}
+
 TEST_CASE("frahm help is frahm --help, of a command and of a kind of study too") {
   CHECK(frahm({"help"}).out == frahm({"--help"}).out);
   CHECK(frahm({"help", "run"}).out == frahm({"run", "--help"}).out);

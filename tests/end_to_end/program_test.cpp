@@ -27,6 +27,20 @@ TEST_CASE("check tells what the histories of listed orbits take") {
              Catch::Contains("orbits  the histories of 3, about a second more, 111 kB before compression"));
 }
 
+TEST_CASE("check tells the size of the file that a run then makes") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), result = folder / "small.h5";
+  const std::string told = frahm({"check", study}).out, before = "\nfile    about ";
+  const std::size_t at = told.find(before);
+  REQUIRE(at != std::string::npos);
+  CHECK(told.substr(told.find(' ', at + before.size()), 4) == " kB ");
+  const double kilobytes = std::stod(told.substr(at + before.size()));
+  REQUIRE(run(study, result).code == 0);
+  const double made = 1e-3 * static_cast<double>(std::filesystem::file_size(result));
+  CHECK(kilobytes > 0.5 * made);
+  CHECK(kilobytes < 2.0 * made);
+}
+
 TEST_CASE("a rerun that is refused names what has changed") {
   const Folder folder;
   const std::string study = folder.write("small.toml", small), result = folder / "small.h5";

@@ -109,6 +109,14 @@ TEST_CASE("Values out of range are refused by name, value and rule") {
   bad = good;
   bad.mass[1] = bad.element[6] = 0.0;
   CHECK_THAT(refusal(network, bad), Contains("mass matrix") && Contains("not positive definite"));
+  bad = good;
+  bad.mass[1] = 1e-300;
+  bad.element[6] = 0.0;
+  CHECK(refusal(network, bad) == "the mass at 'tmd' = 1e-300: is lost in rounding beside 102.66 at 'main'");
+  bad = good;
+  bad.element[0] = 1e300;
+  CHECK(refusal(network, bad) ==
+        "the stiffness at 'tmd' = 10985.1: is lost in rounding beside 1e+300 at 'main'");
   for (const double omega : {0.0, -1.0, infinity, std::nan("")}) {
     bad = good;
     bad.omega = omega;

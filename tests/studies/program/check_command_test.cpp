@@ -104,6 +104,37 @@ TEST_CASE("A map of less than a second is predicted as that") {
   CHECK(has(out.str(), "\nmemory  about "));
 }
 
+TEST_CASE("The time of one motion is predicted from its steps") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "long.toml";
+  const auto told = [&](const char* duration) {
+    std::ofstream(path) << "[study]\nschema = 1\nkind = \"transient\"\nunits = \"dimensionless\"\n"
+                           "[[mass]]\nname = \"m\"\nmass = 1\n"
+                           "[[element]]\nname = \"s\"\ntype = \"spring\"\nbetween = [\"ground\", \"m\"]\n"
+                           "stiffness = 1\n[excitation]\nfrequency = 1\n"
+                           "[[excitation.force]]\non = \"m\"\namplitude = 1\n[transient]\nduration = "
+                        << duration;
+    std::ostringstream out;
+    check_command({.study = path, .threads = 1}, out);
+    return out.str();
+  };
+  CHECK_THAT(told("100"), Catch::Contains("\ntime       less than a second\n"));
+  CHECK_THAT(told("1e6"), Catch::Contains("\ntime       about "));
+}
+
+TEST_CASE("Of tiles that take seconds one point alone is sampled, and counts for its tile") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "dear.toml";
+  std::ofstream(path) << small_studies::oscillator() << small_studies::axis("r", 0.2, 2, 4000)
+                      << small_studies::axis("f", 0, 1, 4000);
+  MapPlan plan = plan_map(read_study_with(path, {}), {});
+  plan.grid.tile = plan.grid.chunk = plan.grid.shape;  // a minute's work
+  const auto sample = sample_map(plan, 0.0);
+  CHECK(sample.points == 1);
+  REQUIRE(sample.costs.size() == 1);
+  CHECK(sample.costs[0].seconds == Approx(1.6e7 * sample.seconds));
+}
+
 TEST_CASE("A run takes the memory of a sample once for each thread") {
   const MemoryUse use;
   const std::vector<char> sample(64'000'000, 'a');
