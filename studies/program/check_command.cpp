@@ -28,6 +28,7 @@
 #include "studies/program/memory_use.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/rank_table.hpp"
+#include "studies/program/readable_size.hpp"
 #include "studies/program/record_table.hpp"
 #include "studies/program/scatter_table.hpp"
 #include "studies/reading/settings.hpp"

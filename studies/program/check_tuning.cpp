@@ -11,6 +11,7 @@
 #include "studies/program/exit_code.hpp"
 #include "studies/program/memory_use.hpp"
 #include "studies/program/modes_table.hpp"
+#include "studies/program/readable_size.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_sample.hpp"
 #include "studies/tuning/tuning_table.hpp"

@@ -1,6 +1,5 @@
 #include "studies/program/memory_use.hpp"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -27,14 +26,6 @@ double most_memory() {
 }
 
 }  // namespace
-
-std::string readable_size(double bytes) {
-  for (const char* unit : {"bytes", "kB", "MB", "GB"}) {
-    if (bytes < 999.5) return fmt::format("{:.3g} {}", bytes, unit);
-    bytes /= 1000.0;
-  }
-  return fmt::format("{:.3g} TB", bytes);
-}
 
 MemoryUse::MemoryUse() : before_(memory_now()) {}
 

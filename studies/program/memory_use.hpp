@@ -1,11 +1,6 @@
 #pragma once
 
-#include <string>
-
 namespace frahm::studies {
-
-// "12.5 MB"
-std::string readable_size(double bytes);
 
 // The memory that a run takes, from a sample of its work on one thread, which is done between the making of
 // this and the question.

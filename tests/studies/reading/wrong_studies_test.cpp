@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "studies/reading/study.hpp"
+#include "tests/results/temporary_directory.hpp"
+#include "tests/studies/small_studies.hpp"
 
 namespace {
 
@@ -85,6 +87,27 @@ TEST_CASE("every wrong study is refused at its place, by the rule it breaks, wit
   }
 }
 
+TEST_CASE("more parameters than a study may have are refused at their section") {
+  const TemporaryDirectory made;
+  const std::filesystem::path path = made / "many.toml";
+  const auto write = [&](int parameters) {
+    std::ofstream file(path);
+    file << "[study]\nschema = 1\nkind = \"sweep\"\nunits = \"dimensionless\"\n[parameters]\nr = 0.9\n";
+    for (int i = 1; i < parameters; ++i) file << 'p' << i << " = 1\n";
+    file << "[[mass]]\nname = \"main\"\nmass = 1\n[[element]]\nname = \"spring\"\ntype = \"spring\"\n"
+            "between = [\"ground\", \"main\"]\nstiffness = 1\n[excitation]\nfrequency = \"r\"\n"
+            "[[excitation.force]]\non = \"main\"\namplitude = 1\n"
+         << small_studies::axis("r", 0.2, 0.4, 3);
+  };
+  write(2001);
+  const Refusal refusal = refusal_of(path);
+  CHECK(refusal.rule == "too_large");
+  CHECK_THAT(refusal.message,
+             Catch::Contains("[parameters]") && Catch::Contains("2001") && Catch::Contains("at most 2000"));
+  write(2000);
+  CHECK(refusal_of(path).rule == "none");
+}
+
 // A few whole sentences, so that what users read is seen by somebody when it changes.
 TEST_CASE("a refusal says what was found, the rule and the nearest name") {
   const std::map<std::string, std::string> sentences{
@@ -111,7 +134,8 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
       {"output_orbit_out_of_range",
        "24:11: element \"damper\": damping: is -1 N s/m at c = -1 N s/m ([output]: orbits); must be >= 0"},
       {"transient_coordinate_without_axis",
-       "36:3: the section \"coordinate\" is not part of a transient: without an [[axis]] it computes one motion, "
+       "36:3: the section \"coordinate\" is not part of a transient: without an [[axis]] it computes one "
+       "motion, "
        "not a map"},
       {"expression_function_unknown",
        "24:12: element \"damper\": damping: no function is called \"squrt\"; did you mean \"sqrt\"?"},
