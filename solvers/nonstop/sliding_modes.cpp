@@ -50,6 +50,10 @@ SlidingModes sliding_modes(const mechanics::LinearSystem& system) {
   const Eigen::MatrixXd root = energy_root(system);
   const Eigen::MatrixXd back = algebra::inverse(root);
   const algebra::Spectrum spectrum = algebra::spectrum(root * state_matrix(system) * back);
+  if (!spectrum.values.allFinite()) {
+    result.condition = kInfinity;
+    return result;
+  }
   const Eigen::Index D = spectrum.values.size();
   Eigen::Index M = 0;
   for (Eigen::Index i = 0; i < D; ++i) M += spectrum.values[i].imag() >= 0.0 ? 1 : 0;

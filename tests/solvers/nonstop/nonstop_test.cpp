@@ -311,6 +311,15 @@ TEST_CASE("a point of a row whose values are refused has the reason, and the oth
   CHECK_THAT(found[7].reason, Catch::Contains("angular frequency"));
 }
 
+TEST_CASE("a mass whose inverse is no number has no modes, and its points the reason") {
+  mechanics::NetworkValues values = single_mass_values(0.9, 0.05, 0.2);
+  for (const double mass : {1e-310, 1e-320}) {
+    values.mass[0] = mass;
+    const Found found = solved(single_mass(), values, {{Measure::peak, 0}}, Path::fastest);
+    CHECK_THAT(found.summary.reason, Catch::Contains("no finite rate"));
+  }
+}
+
 TEST_CASE("a row whose friction changes has the orbits of its points") {
   const mechanics::Network network = rig();
   const std::vector<Quantity> quantities = all_quantities(network);
