@@ -116,12 +116,17 @@ LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics
   Form form = mechanics::smooth_force(*this, at, law, mode);
   if (law.internal >= 0) form.z[2 * at.w.size() + law.internal] += 1.0;
   add_bends(element, mode, form);
-  if (law.friction == 0.0) return form;
+  if (law.static_friction == 0.0) return form;
   const mechanics::ContactShare& place = assembly_.shares()[element];
   const auto contact = static_cast<Eigen::Index>(place.contact);
-  if (!flow_.equations().holds(contact)) return form;  // its force is the internal one
-  const double limit = flow_.equations().limit[contact];
-  const double share = limit > 0.0 ? place.orientation * law.friction / limit : 0.0;
+  const StepEquations<N, H>& eq = flow_.equations();
+  if (!eq.holds(contact)) return form;  // its force is the internal one
+  // Elements of one contact each carry a part of its force in proportion to their limits: at rest the static
+  // ones, so that none breaks its own.
+  const bool rests = flow_.rests(mode, contact);
+  const double limit = (rests ? eq.static_limit : eq.limit)[contact];
+  const double own = rests ? law.static_friction : law.friction;
+  const double share = limit > 0.0 ? place.orientation * own / limit : 0.0;
   if (contains(mode.stuck, contact)) {
     form.add(share, stuck_contact_force(contact, mode));
   } else {

@@ -36,7 +36,8 @@ struct SupportForce {
 };
 
 // The part of an element with a law in a contact. Elements of a law that merges, along the same direction,
-// act as one contact, whose limit is the sum of theirs; each carries the share F_j / sum F of its force.
+// act as one contact, whose limits are the sums of theirs; each carries a share of its force, F_j / sum F
+// while it slides and the same of the static limits at rest.
 struct ContactShare {
   std::size_t contact = 0;  // index of the contact
   double orientation = 1;   // +1 if the element points as the contact does, -1 otherwise

@@ -45,7 +45,7 @@ class Forces {
                    product(law.inertance, law_by.inertance, acceleration(at, motion_));
     // The friction of an element with an internal force is the limit of that force.
     if (law.internal >= 0) return force + motion_.internal_by[law.internal];
-    if (law.friction != 0.0 || law_by.friction != 0.0) force += friction(e);
+    if (law.static_friction != 0.0 || law_by.static_friction != 0.0) force += friction(e);
     return force + bends(e);
   }
 
@@ -77,16 +77,15 @@ class Forces {
     return force;
   }
 
-  // sigma F of a sliding contact; of a stuck one the share F / sum F of its force lambda.
+  // sigma F of a sliding contact; of a stuck one the share F_s / sum F_s of its force lambda.
   double friction(std::size_t e) const {
     const mechanics::ContactShare& place = assembly_.shares()[e];
     const ContactForce& contact = motion_.contacts[place.contact];
-    const double force = system_.coefficients[e].friction, force_by = by_.coefficients[e].friction;
-    if (!contact.sticks) return place.orientation * contact.direction * force_by;
+    if (!contact.sticks) return place.orientation * contact.direction * by_.coefficients[e].friction;
     const auto j = static_cast<Eigen::Index>(place.contact);
-    const double limit = system_.limit[j];
-    const double share = force / limit;
-    const double share_by = (force_by - share * by_.limit[j]) / limit;
+    const double limit = system_.static_limit[j];
+    const double share = system_.coefficients[e].static_friction / limit;
+    const double share_by = (by_.coefficients[e].static_friction - share * by_.static_limit[j]) / limit;
     return place.orientation * (share * contact.force_by + share_by * contact.force);
   }
 

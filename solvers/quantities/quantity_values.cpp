@@ -207,7 +207,7 @@ double stuck_fraction(const Measured& m, const Asked& asked) {
 }
 
 double regime(const Measured& m, const Asked& asked) {
-  const double force = m.system->coefficients[asked.quantity.index].friction;
+  const double force = m.system->coefficients[asked.quantity.index].static_friction;
   return static_cast<double>(regime_of(force, history(m, asked)));
 }
 
@@ -215,7 +215,7 @@ double slipping(const Measured& m, const Asked& asked) {
   const std::size_t first = asked.quantity.index;
   int count = 0;
   for (std::size_t e = first; e < first + m.assembly->network().elements[first].parts; ++e) {
-    const double force = m.system->coefficients[e].friction;
+    const double force = m.system->coefficients[e].static_friction;
     if (regime_of(force, m.histories[m.assembly->shares()[e].contact]) != Regime::stuck) ++count;
   }
   return count;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -169,6 +170,31 @@ TEST_CASE("A static force equal to the sliding force is Coulomb's law") {
     CHECK_THAT(both["x_peak"], WithinRel(coulomb["x_peak"], kExact));
     CHECK(both["error_bound"] < 1e-9);  // monotone: the bound holds
   }
+}
+
+// Contacts of one direction are one: it breaks loose where both are at their own limits.
+TEST_CASE("Of two guides side by side each carries no more than its own law allows") {
+  Network network = mass_with_static_friction();
+  network.elements.push_back({"plain", ElementType::coulomb, ground, mass});
+  NetworkValues values = with_static_friction(0.3, 0.05, 0.3, 0.6);
+  values.element.push_back(0.25);
+  values.second.push_back(0.0);
+  Responses both(network), one(mass_with_static_friction());
+  both.solve(values);
+  one.solve(with_static_friction(0.3, 0.05, 0.55, 0.85));
+  CHECK(both["guide_stops"] == 2.0);
+  CHECK_THAT(both["guide_force_peak"], WithinRel(0.6, kExact));
+  CHECK_THAT(both["plain_force_peak"], WithinRel(0.25, kExact));
+  CHECK_THAT(both["x_peak"], WithinRel(one["x_peak"], kExact));
+  CHECK_THAT(both["guide_energy"] + both["plain_energy"], WithinRel(one["guide_energy"], kExact));
+  CHECK_THAT(both["guide_energy"] / both["plain_energy"], WithinRel(0.3 / 0.25, kExact));
+  const History history = both.response().history(phases_of_a_period(1001));
+  const auto column = [&](const char* name) {
+    const auto found = std::ranges::find(history.names, name);
+    REQUIRE(found != history.names.end());
+    return history.columns[static_cast<std::size_t>(found - history.names.begin())];
+  };
+  for (const double force : column("plain_force")) CHECK(std::abs(force) <= 0.25 * (1.0 + kExact));
 }
 
 // A shock absorber that damps more in bump than in rebound, beyond the velocity v in either direction.

@@ -165,6 +165,18 @@ TEST_CASE("So are those of friction that sticks harder than it slides, with two 
   check_all(network, values, 50);
 }
 
+TEST_CASE("So are those of two guides side by side, one of which sticks harder than it slides") {
+  Network network = one_mass({"friction", ElementType::coulomb, ground, first});
+  network.elements[2].has_static_force = true;
+  network.elements.push_back({"plain", ElementType::coulomb, ground, first});
+  const NetworkValues values{.omega = 0.3,
+                             .mass = {1.0},
+                             .element = {1.0, 0.1, 0.3, 0.25},
+                             .excitation = {{1.0, 0.0}},
+                             .second = {0.0, 0.0, 0.6, 0.0}};
+  check_all(network, values, 50);
+}
+
 // Both the table's point and the friction are at zero velocity.
 TEST_CASE("So are those of a damper that is stiffer one way, beside friction with a static limit") {
   Network network = one_mass({"friction", ElementType::coulomb, ground, first});
