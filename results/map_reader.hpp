@@ -27,6 +27,8 @@ class MapReader {
   // such group. The texts and groups are those of the file.
   MapReader(const std::filesystem::path& path, const std::string& group);
 
+  const std::filesystem::path& path() const { return path_; }
+
   // The layout of the map; its chunk is that of the variables; where
   // these are not in chunks, some rows.
   const MapLayout& layout() const { return layout_; }

@@ -15,6 +15,7 @@
 #include "studies/program/log_status.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/provenance_checksum.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
@@ -63,8 +64,8 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   const results::MapReader map(file);
   const results::MapLayout& layout = map.layout();
   const std::uint64_t points = points_of(layout);
-  fmt::print(out, "{}: {}\n{:<22} {}\n", file.string(),
-             is_part(map) ? "a part of the result" : "finished", "title", layout.title);
+  fmt::print(out, "{}: {}\n{:<22} {}\n", file.string(), is_part(map) ? "a part of the result" : "finished",
+             "title", layout.title);
   for (const results::Axis& axis : layout.axes) {
     fmt::print(out, "{:<22} {}: {} point{}\n", "axis", axis.name, axis.size, axis.size == 1 ? "" : "s");
   }
@@ -75,8 +76,9 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
     print_flags(count_flags(map), points, out);
   }
   if (!map.has_group("provenance")) return;
+  refuse_changed_provenance(map);
   for (const auto& [name, text] : map.texts("provenance")) {
-    if (name != "study" && name != "failed_points" && !text.empty())
+    if (name != "study" && name != "failed_points" && name != checksum_text && !text.empty())
       fmt::print(out, "{:<22} {}\n", name, text);
   }
 }

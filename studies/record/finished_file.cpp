@@ -12,6 +12,7 @@
 #include "engine/tile_index.hpp"
 #include "results/store_error.hpp"
 #include "studies/reading/study_source.hpp"
+#include "studies/record/provenance_checksum.hpp"
 
 namespace frahm::studies {
 
@@ -122,6 +123,7 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
 
 void refuse_damage(const results::MapReader& result, const std::string& advice) {
   try {
+    refuse_changed_provenance(result);
     result.check_data(is_part(result) ? results::Completeness::part : results::Completeness::whole);
   } catch (const results::StoreError& reason) {
     throw results::StoreError(reason.what(), "the result is damaged", advice);

@@ -11,6 +11,7 @@
 #include "solvers/mechanics/bends.hpp"
 #include "studies/record/build_facts.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/provenance_checksum.hpp"
 
 namespace frahm::studies {
 
@@ -93,6 +94,7 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
   if (!plan.course.empty()) texts.emplace_back(branch_course_text, plan.course);
   if (missing > 0) texts.emplace_back(missing_tiles_text, fmt::format("{}", missing));
   if (!failed.empty()) texts.emplace_back("failed_points", fmt::format("{}", fmt::join(failed, "\n")));
+  texts.emplace_back(checksum_text, checksum_of(texts));
   return texts;
 }
 

@@ -2,10 +2,12 @@
 
 #include "studies/reading/assignment.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/provenance_checksum.hpp"
 
 namespace frahm::studies {
 
 StoredStudy read_stored_study(const results::MapReader& result, const std::filesystem::path& file) {
+  refuse_changed_provenance(result);
   const std::filesystem::path study_file = provenance_text(result, "study_file");
   StoredStudy stored;
   stored.study =

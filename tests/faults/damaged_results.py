@@ -302,6 +302,7 @@ def check_embedded_study(bench, data):
             text = (text.decode() if isinstance(text, bytes) else text).replace(
                 "[excitation]", f'[matrices]\nmass = "{named}"\n[excitation]', 1)
             file["provenance"].attrs["study"] = text
+            del file["provenance"].attrs["checksum"]  # as in a file of an earlier version
 
         place = changed(bench, data, change)
         check(place, f"an embedded study that names {named}", codes=(0, 2, 6), commands=COMMANDS)
@@ -311,6 +312,23 @@ def check_embedded_study(bench, data):
         place.write("study.toml", study.encode())
         outcome = place.call("check", "study.toml")
         assert outcome.code == 2 and "internal error" not in outcome.err, outcome
+
+
+def check_changed_texts(bench, data):
+    """A stored study, or another text of where a result comes from, that is not the one that was written."""
+    for name in "study", "overrides", "fingerprint_grid":
+        def change(file, _):
+            file["provenance"].attrs.modify(name, "r = 1")
+
+        place = changed(bench, data, change)
+        place.write("study.toml", small_map(bench).encode())
+        growing = ("run", "study.toml", "-o", "new.h5", "--from", OUTPUT, "--progress", "none")
+        for command in *COMMANDS, growing, ("run", "study.toml", "-o", OUTPUT, "--progress", "none"):
+            outcome = place.call(*command)
+            if name == "fingerprint_grid" and command[0] == "run":  # another study's result
+                assert outcome.code in (5, 6), f"{name}: {outcome}"
+                continue
+            assert outcome.code == 6 and "were changed after they were written" in outcome.err, f"{name}: {outcome}"
 
 
 def damage(path, name):
@@ -421,6 +439,7 @@ def drill(bench):
     check_repacked(bench, results["map"])
     check_made_to_harm(bench, results["map"])
     check_embedded_study(bench, results["map"])
+    check_changed_texts(bench, results["map"])
     check_reruns(bench)
     check_flipped_reruns(bench, results["map"])
     check_studies_of_damaged(bench)
