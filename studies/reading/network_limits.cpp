@@ -8,9 +8,9 @@
 namespace frahm::studies {
 namespace {
 
-// An orbit takes memory in proportion to the square of the states, and time to their cube: 2 GB and 20 s
+// An orbit takes memory in proportion to the square of the states, and time to their cube: 1 GB and 10 s
 // here.
-constexpr std::size_t most_states = 1000;
+constexpr std::size_t most_states = 700;
 
 using mechanics::ElementKind;
 
