@@ -40,6 +40,7 @@ void move_to_phase_0(BranchMap& map, AnyOrbit& orbit) {
 }  // namespace
 
 AnyOrbit find_start(BranchMap& map, int multiple) {
+  const LimitedSearch limit(map.flow().work());
   using Search = OrbitSearch<kAnySize, kAnySize>;
   AnyOrbit orbit;
   const mechanics::LinearSystem& system = map.system();
@@ -64,6 +65,7 @@ std::vector<AnyOrbit> find_stable(BranchMap& map, double parameter, const Orbits
   } catch (const mechanics::MechanicsError&) {
     return orbits;
   }
+  const LimitedSearch limit(map.flow().work());
   using Search = OrbitSearch<kAnySize, kAnySize>;
   const mechanics::LinearSystem& system = map.system();
   const std::vector<UndampedMode> undamped = undamped_modes(system);

@@ -47,13 +47,13 @@ void SizedSolver<N, H>::search_row(std::span<const mechanics::NetworkValues> poi
       record(i, solve());
       continue;
     }
-    flow_.work().begin();
+    const LimitedSearch limit(flow_.work());
     orbits.push_back(coexistence_.find(system_, orbits.empty() ? nullptr : &orbits.back()));
     searched.push_back(i);
   }
   for (std::size_t k = searched.size(); k-- > 0;) {
     set(points[searched[k]]);
-    flow_.work().begin();
+    const LimitedSearch limit(flow_.work());
     if (k + 1 < searched.size()) coexistence_.add(system_, orbits[k + 1], orbits[k]);
     coexistence_.tell(system_, orbits[k], orbit_);
     record(searched[k], conclude());

@@ -29,7 +29,6 @@ class SizedSolver final : public ResponseSolver {
         sweep_(assembly_, flow_, wanted.most_multiple),
         observables_(assembly_, flow_, quantities),
         gradient_(assembly_, flow_, quantities) {
-    flow_.work().set_limit(kMostWork);
     if (path == Path::fastest && nonstop::NonstopSolver::serves(assembly_))
       nonstop_ = std::make_unique<nonstop::NonstopSolver>(assembly_, quantities);
   }
@@ -138,7 +137,7 @@ class SizedSolver final : public ResponseSolver {
 
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
-  flow_.work().begin();
+  const LimitedSearch limit(flow_.work());
   if (wanted_.is_sweep()) {
     sweep_on();
   } else if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {

@@ -14,14 +14,28 @@ inline constexpr const char* kSearchIsLong =
 // three.
 class SearchWork {
  public:
-  // Of one search [s]; without a call it is not limited.
-  void set_limit(double seconds) { most_ = seconds; }
-  void begin() { done_ = 0.0; }  // another search
   void add(double seconds) { done_ += seconds; }
   bool is_over() const { return done_ > most_; }
+  void begin() { done_ = 0.0; }  // another search
 
  private:
+  friend class LimitedSearch;
   double done_ = 0.0, most_ = kInfinity;
+};
+
+// While it lives, what is followed belongs to one search of limited work.
+class LimitedSearch {
+ public:
+  explicit LimitedSearch(SearchWork& work, double most_seconds = kMostWork) : work_(work) {
+    work_.begin();
+    work_.most_ = most_seconds;
+  }
+  ~LimitedSearch() { work_.most_ = kInfinity; }
+  LimitedSearch(const LimitedSearch&) = delete;
+  LimitedSearch& operator=(const LimitedSearch&) = delete;
+
+ private:
+  SearchWork& work_;
 };
 
 }  // namespace frahm::periodic

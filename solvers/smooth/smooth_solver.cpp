@@ -37,11 +37,13 @@ bool is_near_exact(const Element& element) {
   return false;
 }
 
+// None where it would not serve.
 std::unique_ptr<periodic::ResponseSolver> solver_of_exact_law(Network network) {
   for (Element& element : network.elements) {
     if (!is_near_exact(element)) return nullptr;
     element.law = FrictionLaw::exact;
   }
+  if (mechanics::Assembly(network).contacts() > periodic::kMostContacts) return nullptr;
   return periodic::make_exact_solver(network, {});
 }
 
@@ -65,9 +67,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
         integrator_(equation_),
         shooting_(equation_, integrator_),
         coexistence_(equation_, integrator_, wanted),
-        observables_(assembly_, equation_, quantities) {
-    integrator_.work().set_limit(periodic::kMostWork);
-  }
+        observables_(assembly_, equation_, quantities) {}
 
   void set_values(const mechanics::NetworkValues& values) override {
     if (exact_) exact_->set_values(values);
@@ -173,7 +173,7 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
 }
 
 void SmoothSolver::search() {
-  integrator_.work().begin();
+  const periodic::LimitedSearch limit(integrator_.work());
   equation_.set(system_, values_);  // after an orbit of several periods
   if (system_.monotone) return search_one();
   coexistence_.find(system_, values_, orbit_);

@@ -1,5 +1,6 @@
 #include "studies/map/map_sample.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 #include <span>
@@ -17,8 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 // Dear tiles may differ in cost several times: one or two of them would tell little of the rest.
 constexpr std::uint64_t enough_tiles = 8;
-constexpr double most_times = 4.0;  // of the time given
-constexpr double dear_tile = 2.0;   // [s]; beyond, check would keep its user waiting
+constexpr double most_times = 4.0;                          // of the time given
+constexpr double dear_tile = 2.0, surely_dear_point = 0.5;  // [s]; check is not to keep its user waiting
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -78,7 +79,8 @@ void TileSampler::add_record(const MapBox& box, MapSample& sample) const {
     const auto values = std::span(record_.values).subspan(q * points, points);
     const results::Bytes raw = results::to_storage(variables_[q], values);
     sample.raw_bytes += raw.size();
-    sample.stored_bytes += results::encode_chunk(raw, results::element_size(variables_[q].type)).size();
+    const auto stored = results::encode_chunk(raw, results::element_size(variables_[q].type)).size();
+    sample.stored_bytes += std::min(stored, raw.size());  // of a few numbers it is more
   }
   sample.encoding_seconds += seconds_since(start);
   if (sample.failed == 0 && !record_.failed.empty()) {
@@ -100,29 +102,28 @@ MapPlan in_single_points(const MapPlan& plan) {
 
 MapSample sample_map(const MapPlan& plan, double seconds) {
   const std::uint64_t tiles = plan.grid.tiles(), stride = spreading_stride(tiles);
-  const auto points_of = [&](std::uint64_t tile) {
-    return static_cast<double>(plan.grid.box(tile).points());
-  };
   MapSample sample;
-  // Of dear tiles the first point alone is computed, and counts for all of its tile.
+  // Of dear tiles one point alone is computed, and counts for all of its tile.
   const MapPlan single = in_single_points(plan);
   TileSampler of_points(single), of_tiles(plan);
-  const auto add_first_point = [&](std::uint64_t tile) {
-    const double taken = of_points.add(single.grid.tile_of(plan.grid.box(tile).start), sample);
-    sample.costs.push_back({tile, taken * points_of(tile)});
+  const auto cost_by_point = [&](std::uint64_t tile, std::uint64_t k) {  // the k-th of its points
+    const MapBox box = plan.grid.box(tile);
+    const double taken = of_points.add(single.grid.tile_of(index_in(box, k)), sample);
+    return taken * static_cast<double>(box.points());
   };
-  add_first_point(0);
-  const bool is_dear = sample.costs.front().seconds > dear_tile;
+  double cost = cost_by_point(0, 0);
+  // The very first one also makes what all share.
+  if (cost > dear_tile && sample.seconds < surely_dear_point)
+    cost = cost_by_point(0, plan.grid.box(0).points() - 1);
+  const bool is_dear = cost > dear_tile;
   if (!is_dear) sample = {};
+  if (is_dear) sample.costs.push_back({0, cost});
   const auto goes_on = [&](std::uint64_t k) {
     return k == 0 || sample.seconds < seconds || (k < enough_tiles && sample.seconds < most_times * seconds);
   };
   for (std::uint64_t k = is_dear ? 1 : 0; k < tiles && goes_on(k); ++k) {
     const std::uint64_t tile = k * stride % tiles;
-    if (is_dear)
-      add_first_point(tile);
-    else
-      sample.costs.push_back({tile, of_tiles.add(tile, sample)});
+    sample.costs.push_back({tile, is_dear ? cost_by_point(tile, 0) : of_tiles.add(tile, sample)});
   }
   return sample;
 }

@@ -26,7 +26,7 @@ std::vector<periodic::SearchedPlace> some_places(const RowBranches& branches) {
 
 }  // namespace
 
-void print_branch_cost(const MapPlan& plan, int threads, std::ostream& out) {
+void print_branch_cost(const MapPlan& plan, const MapSample& sample, int threads, std::ostream& out) {
   if (!plan.study.sweep()->branches) return;
   constexpr std::chrono::seconds most(2);
   const auto rows = branch_rows(plan.study);
@@ -36,13 +36,21 @@ void print_branch_cost(const MapPlan& plan, int threads, std::ostream& out) {
   const auto watch = [&](const periodic::BranchPoint&) {
     if (Clock::now() - start > most) throw OutOfTime{};
   };
+  const std::vector<periodic::SearchedPlace> places = some_places(branches);
   const char* about = "about";
-  try {
-    branches.follow(rows[rows.size() / 2], some_places(branches), watch);
-  } catch (const OutOfTime&) {
+  // The searches at these places, as many points of the map.
+  double row_seconds =
+      sample.seconds / static_cast<double>(sample.points) * static_cast<double>(places.size());
+  if (row_seconds > std::chrono::duration<double>(most).count()) {
     about = "more than";
+  } else {
+    try {
+      branches.follow(rows[rows.size() / 2], places, watch);
+    } catch (const OutOfTime&) {
+      about = "more than";
+    }
+    row_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   }
-  const double row_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const int team = engine::team_size(threads, rows.size());
   const double seconds = row_seconds * static_cast<double>(rows.size()) / team;
   fmt::print(out, "branches through {} row{}, {} {} more\n", rows.size(), rows.size() == 1 ? "" : "s", about,

@@ -255,7 +255,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   print_unfit_systems(study, sample, out);
   if (study.sweep()) {
     print_orbits_cost(plan, options.threads, out);
-    print_branch_cost(plan, options.threads, out);
+    print_branch_cost(plan, sample, options.threads, out);
   }
   print_array(options, plan, "map", core_seconds, out);
   if (options.simulate_ranks > 0) {

@@ -307,5 +307,41 @@ TEST_CASE("a network with the arctan law is solved the same along a row as point
   }
 }
 
+// Twelve masses that are driven alike, each with friction to the ground and to all others: 78 contacts.
+TEST_CASE("More contacts than the exact law can follow have the response of the one mass that they all are") {
+  constexpr std::size_t kMasses = 12;
+  constexpr double r = 0.8, zeta = 0.1, f = 0.2, slope = 10.0;
+  mechanics::Network network;
+  mechanics::NetworkValues values;
+  values.omega = r;
+  const mechanics::NetworkValues one = single_mass_values(r, zeta, f);
+  const auto node = [](std::size_t i) { return mechanics::Node{mechanics::NodeKind::mass, i}; };
+  for (std::size_t i = 0; i < kMasses; ++i) {
+    const std::string name = "m" + std::to_string(i);
+    network.masses.push_back(name);
+    values.mass.push_back(1.0);
+    network.excitations.push_back({mechanics::ExcitationKind::force, i, 1});
+    values.excitation.push_back({1.0, 0.0});
+    for (std::size_t e = 0; e < one.element.size(); ++e) {
+      const mechanics::Element element = single_mass().elements[e];
+      network.elements.push_back({name + element.name, element.type, {}, node(i)});
+      values.element.push_back(one.element[e]);
+    }
+  }
+  for (std::size_t i = 0; i < kMasses; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      network.elements.push_back({"p" + std::to_string(i) + "_" + std::to_string(j),
+                                  mechanics::ElementType::coulomb, node(i), node(j)});
+      values.element.push_back(f);
+    }
+  }
+  Responses all(under_arctan(network)), alone(under_arctan(single_mass()));
+  all.solve(with_slope(values, slope));
+  alone.solve(with_slope(one, slope));
+  CHECK(all["status"] == static_cast<double>(Status::ok));
+  for (const char* peak : {"m0_peak", "m11_peak"})
+    CHECK_THAT(all[peak], Catch::WithinRel(alone["x_peak"], kOrbit));
+}
+
 }  // namespace
 }  // namespace frahm::periodic

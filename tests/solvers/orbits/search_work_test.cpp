@@ -21,8 +21,8 @@ struct Search {
     flow.set_system(system);
     flow.set_forcing(system);
   }
-  const Orbit<1, 1>& find() {
-    flow.work().begin();
+  const Orbit<1, 1>& find(double most_steps) {
+    const LimitedSearch limit(flow.work(), most_steps * flow.step_work());
     search.forget();
     search.find(system, {}, false, orbit);
     return orbit;
@@ -35,24 +35,22 @@ struct Search {
   Orbit<1, 1> orbit;
 };
 
-TEST_CASE("A search that takes more work than it may fails with that reason, each time after as many passages") {
+TEST_CASE(
+    "A search that takes more work than it may fails with that reason, each time after as many passages") {
   Search search;
-  search.flow.work().set_limit(100.0 * search.flow.step_work());
-  const Orbit<1, 1> first = search.find();
+  const Orbit<1, 1> first = search.find(100.0);
   CHECK(first.status == Status::failed);
   CHECK(first.reason == kSearchIsLong);
   CHECK(first.passages > 0);
-  CHECK(search.find().passages == first.passages);
+  CHECK(search.find(100.0).passages == first.passages);
 }
 
-TEST_CASE("A search has the work of its own point, whatever those before it took") {
+TEST_CASE("A search has the work of its own, whatever those before it took, and after it there is no limit") {
   Search search;
-  REQUIRE(search.find().is_found());
-  search.flow.work().set_limit(20'000.0 * search.flow.step_work());
-  for (int point = 0; point < 100; ++point) CHECK(search.find().is_found());
-  search.flow.work().add(kInfinity);  // and not what is left of it
-  CHECK(search.flow.work().is_over());
-  CHECK(search.find().is_found());
+  for (int point = 0; point < 100; ++point) CHECK(search.find(20'000.0).is_found());
+  search.flow.work().add(1e300);
+  CHECK(!search.flow.work().is_over());
+  CHECK(search.find(20'000.0).is_found());
 }
 
 TEST_CASE("More masses and contacts make a step and an event more work") {
@@ -84,8 +82,7 @@ std::pair<StableOrbits<1, 1>, Orbit<1, 1>> orbits_between_stops(double most_step
   Flow<1, 1> flow;
   flow.set_system(system);
   flow.set_forcing(system);
-  flow.work().set_limit(most_steps * flow.step_work());
-  flow.work().begin();
+  const LimitedSearch limit(flow.work(), most_steps * flow.step_work());
   Coexistence<1, 1> search(assembly, flow);
   std::pair<StableOrbits<1, 1>, Orbit<1, 1>> result;
   result.first = search.find(system, nullptr);

@@ -102,19 +102,17 @@ TEST_CASE("passages end where the work of their search is over, and begin with t
   Rig rig(1e5);
   Integrator integrator(rig.equation);
   Shooting shooting(rig.equation, integrator);
-  integrator.work().set_limit(1e-3);  // some 150 steps
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(4);
   for (int search = 0; search < 2; ++search) {
-    integrator.work().begin();
+    const periodic::LimitedSearch limit(integrator.work(), 1e-3);  // some 150 steps
     Orbit orbit;
     orbit.z = Eigen::VectorXd::Zero(4);
     shooting.find(rig.scale(), orbit);
     CHECK(orbit.status == Status::failed);
     CHECK(orbit.reason == periodic::kSearchIsLong);
     CHECK(orbit.passage.steps > 100);
+    CHECK(!integrator.follow(z, 0.0, rig.equation.period(), rig.scale()));
   }
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(4);
-  CHECK(!integrator.follow(z, 0.0, rig.equation.period(), rig.scale()));
-  integrator.work().begin();
   CHECK(integrator.follow(z, 0.0, rig.equation.period(), rig.scale()));
 }
 
