@@ -116,8 +116,10 @@ MapSample sample_map(const MapPlan& plan, double seconds) {
   if (cost > dear_tile && sample.seconds < surely_dear_point)
     cost = cost_by_point(0, plan.grid.box(0).points() - 1);
   const bool is_dear = cost > dear_tile;
-  if (!is_dear) sample = {};
-  if (is_dear) sample.costs.push_back({0, cost});
+  if (is_dear)
+    sample.costs.push_back({0, cost});
+  else
+    sample = {};
   const auto goes_on = [&](std::uint64_t k) {
     return k == 0 || sample.seconds < seconds || (k < enough_tiles && sample.seconds < most_times * seconds);
   };

@@ -91,6 +91,8 @@ void read_heading(const TomlValue& root, Study& study) {
   if (kind == StudyKind::tune) study.choice = TuneChoice{};
   if (kind == StudyKind::identify) study.choice = IdentifyChoice{};
   study.title = section.text_or("title", "");
+  if (study.title.find('\n') != std::string::npos)
+    section.fail(rules::not_text, "title", "has more than one line; a title is one");
   study.dimensionless = section.choice("units") == "dimensionless";
 }
 
