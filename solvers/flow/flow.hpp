@@ -105,7 +105,6 @@ class Flow {
 
   // Of all motions that are followed on this flow; and what a step and an event add to it [s].
   SearchWork& work() { return work_; }
-  const SearchWork& work() const { return work_; }
   double step_work() const { return step_work_; }
   double event_work() const { return event_work_; }
 
