@@ -8,6 +8,7 @@
 
 #include "studies/identification/identification_record.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -30,7 +31,7 @@ Spoken spoken_of(const Study& study, const Estimate& estimate) {
   }
   const auto parameter = study.parameters.find(name);
   if (!parameter || !study.parameters.list[*parameter].is_number())
-    return {1.0, study.dimensionless || estimate.unit == "1" ? "" : estimate.unit};
+    return {1.0, study.dimensionless || is_pure_number(estimate.unit) ? "" : estimate.unit};
   return {usual_unit(study, *parameter).si_factor, spoken_value(study, *parameter, 1.0).unit};
 }
 
@@ -51,11 +52,9 @@ void print_estimates(const Study& study, const Identification& found, std::ostre
   fmt::print(out, "{:<36}{:>16}{:>16}{:>16}\n", "", "estimate", "95 % from", "to");
   for (const Estimate& estimate : found.estimates) {
     const Spoken spoken = spoken_of(study, estimate);
-    const std::string name =
-        spoken.unit.empty() ? estimate.name : fmt::format("{} [{}]", estimate.name, spoken.unit);
-    fmt::print(out, "{:<36}{:>16}{:>16}{:>16}{}\n", name, number(estimate.value, spoken.factor),
-               number(estimate.low, spoken.factor), number(estimate.high, spoken.factor),
-               remark_of(study, estimate));
+    fmt::print(out, "{:<36}{:>16}{:>16}{:>16}{}\n", in_brackets(estimate.name, spoken.unit),
+               number(estimate.value, spoken.factor), number(estimate.low, spoken.factor),
+               number(estimate.high, spoken.factor), remark_of(study, estimate));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "studies/map/motion_cost.hpp"
 #include "studies/map/orbit_cost.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -186,10 +187,6 @@ bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
     index[*d] = box.start[*d];
   }
   return false;
-}
-
-std::string with_unit(double value, const std::string& unit) {
-  return unit.empty() || unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
 }
 
 std::string point_text(const Study& study, std::span<const std::uint64_t> index) {

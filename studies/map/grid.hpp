@@ -67,7 +67,4 @@ bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
 // index: one number for each dimension of the map.
 std::string point_text(const Study& study, std::span<const std::uint64_t> index);
 
-// "250 rpm"; a unit of "" or "1" is left out.
-std::string with_unit(double value, const std::string& unit);
-
 }  // namespace frahm::studies

@@ -12,6 +12,7 @@
 #include "studies/map/grid.hpp"
 #include "studies/map/map_chunks.hpp"
 #include "studies/reading/decimal_digits.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {

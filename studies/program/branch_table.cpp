@@ -8,16 +8,9 @@
 
 #include "studies/map/output_quantities.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
-namespace {
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
-}
-
-}  // namespace
-
 BranchTable::BranchTable(const Study& study, std::size_t along,
                          const std::vector<periodic::Quantity>& quantities)
     : study_(study),
@@ -46,8 +39,8 @@ void BranchTable::print(const periodic::Branch& branch, std::ostream& out) const
   fmt::print(out, "{:<22} {}\n", "after the last", periodic::end_sentence(branch.last_end));
   if (branch.special.empty()) return fmt::print(out, "{:<22} none\n", "special points");
   const periodic::QuantityDescription& shown = quantities_[headline_];
-  fmt::print(out, "\n{:<16} {:>18} {:>20} {:>10}  {}\n", "special point", with_unit(name_, unit_),
-             with_unit(shown.name, shown.unit), "residual", "element");
+  fmt::print(out, "\n{:<16} {:>18} {:>20} {:>10}  {}\n", "special point", in_brackets(name_, unit_),
+             in_brackets(shown.name, shown.unit), "residual", "element");
   for (const periodic::SpecialPoint& each : branch.special) {
     fmt::print(out, "{:<16} {:>18.12g} {:>20.12g} {:>10.1e}  {}\n", periodic::kind_name(each.kind),
                spoken(each.at.parameter), each.at.quantities[headline_], each.residual,
@@ -68,8 +61,8 @@ std::string BranchTable::row(const periodic::BranchPoint& point, const char* spe
 }
 
 std::string BranchTable::csv(const periodic::Branch& branch) const {
-  std::string text = with_unit(name_, unit_);
-  for (const auto& each : quantities_) text += "," + with_unit(each.name, each.unit);
+  std::string text = in_brackets(name_, unit_);
+  for (const auto& each : quantities_) text += "," + in_brackets(each.name, each.unit);
   text += ",largest_multiplier,stable,multiple,special";
   auto special = branch.special.begin();
   for (std::size_t i = 0; i < branch.points.size(); ++i) {

@@ -16,6 +16,7 @@
 #include "studies/map/grid.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/unit_words.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/tuning/schedule_table.hpp"
 #include "studies/tuning/sweep_study.hpp"
@@ -30,7 +31,7 @@ std::string header(const results::MapLayout& layout) {
   std::string text;
   const auto add = [&](const std::string& name, const std::string& unit) {
     text += text.empty() ? "" : ",";
-    text += unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+    text += in_brackets(name, unit);
   };
   for (const results::Axis& axis : layout.axes) {
     for (const results::Coordinate& coordinate : axis.coordinates) add(coordinate.name, coordinate.unit);
@@ -131,9 +132,7 @@ void write_columns(const std::vector<results::Column>& columns, std::ostream& ou
   std::string text;
   for (const results::Column& column : columns) {
     rows = std::max(rows, column.values.size());
-    const auto& [name, unit] = std::pair(column.variable.name, column.variable.unit);
-    text +=
-        (text.empty() ? "" : ",") + (unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit));
+    text += (text.empty() ? "" : ",") + in_brackets(column.variable.name, column.variable.unit);
   }
   out << text << '\n';
   for (std::size_t row = 0; row < rows; ++row) {

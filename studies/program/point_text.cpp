@@ -7,6 +7,7 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/point_report.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -77,7 +78,7 @@ void print_quantities(const Study& study, const PointReport& report, Listing lis
   for (std::size_t i = 0; i < report.quantities.size(); ++i) {
     if (!is_whole && i < of_network.size() && !excerpt.has(of_network[i])) continue;
     const auto& [description, value] = report.quantities[i];
-    const std::string unit = description.unit == "1" ? "" : description.unit;
+    const std::string unit = is_pure_number(description.unit) ? "" : description.unit;
     fmt::print(out, "{:<28}{:>18} {:<7} {}\n", description.name, value_text(report.quantities[i]), unit,
                description.long_name);
     ++shown;
@@ -110,9 +111,8 @@ void print_gradient(const PointGradient& gradient, std::ostream& out) {
     return;
   }
   for (const PointGradient::By& by : gradient.by) {
-    fmt::print(out, "\n{:<28}{:>20}{:>20}{:>14}\n",
-               fmt::format("by {}{}", by.parameter, by.unit == "1" ? "" : fmt::format(" [{}]", by.unit)),
-               "exact", "by differences", "relative");
+    fmt::print(out, "\n{:<28}{:>20}{:>20}{:>14}\n", "by " + in_brackets(by.parameter, by.unit), "exact",
+               "by differences", "relative");
     for (std::size_t i = 0; i < by.derivatives.size(); ++i) {
       const periodic::DerivativeCheck& check = by.derivatives[i];
       fmt::print(out, "{:<28}{:>20}{:>20}{:>14}{}{}\n", gradient.quantities[i].name,

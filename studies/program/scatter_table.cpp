@@ -14,6 +14,7 @@
 #include "studies/map/map_chunks.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/reading/decimal_digits.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -121,9 +122,8 @@ void print_scatter(const MapPlan& plan, const std::filesystem::path& file, std::
   if (!worst) return;
   const auto index = largest(statistics, *worst);
   if (!index) return;
-  const std::string& unit = statistics.layout().variables[*worst].unit;
-  fmt::print(out, "scatter of {}{}{}, {} samples (95 % intervals)\n", of,
-             unit == "1" ? "" : " [" + unit + "]", place_text(statistics, *index),
+  fmt::print(out, "scatter of {}{}, {} samples (95 % intervals)\n",
+             in_brackets(of, statistics.layout().variables[*worst].unit), place_text(statistics, *index),
              value_at(statistics, of + "_samples", *index));
   print_estimate(statistics, of + "_mean", "mean", *index, out);
   fmt::print(out, "  {:<20} {:<14.6g}\n", "deviation", value_at(statistics, of + "_deviation", *index));

@@ -13,6 +13,7 @@
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
+#include "studies/reading/unit_words.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance_checksum.hpp"
@@ -26,8 +27,7 @@ std::string number_text(const results::Column& column) {
   for (const results::Flag& flag : column.variable.flags) {
     if (flag.value == value) return flag.meaning;
   }
-  const std::string& unit = column.variable.unit;
-  return fmt::format("{:.10g}{}", value, unit == "1" ? "" : " " + unit);
+  return with_unit(fmt::format("{:.10g}", value), column.variable.unit);
 }
 
 // A file without a map holds one motion or optimum: its single numbers, and how many rows its other columns

@@ -9,6 +9,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "studies/reading/identify_choice.hpp"
 #include "studies/reading/readable_file.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -76,7 +77,7 @@ void check_unit(const StudyContext& context, const EarlierEstimates& earlier, st
   const auto fail = [&](Rule rule, const std::string& problem) {
     throw StudyError(rule, "{}: the estimate \"{}\": {}", earlier.file, earlier.names[i], problem);
   };
-  if (unit.empty() || unit == "1") return;
+  if (is_pure_number(unit)) return;
   if (context.dimensionless)
     fail(rules::unit_in_dimensionless,
          fmt::format("its unit \"{}\" has no meaning in a dimensionless study", unit));

@@ -7,6 +7,7 @@
 #include "studies/reading/earlier_estimates.hpp"
 #include "studies/reading/sample_reading.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -61,7 +62,7 @@ std::size_t take_estimate(SampleReading& reading, const Wanted& wanted, const Ea
     fail_at(reading, wanted, error.rule(), error.what());
   }
   const std::string& unit = earlier.units[i];
-  if (unit.empty() || unit == "1" || reading.context.dimensionless) {
+  if (is_pure_number(unit) || reading.context.dimensionless) {
     axis.unit = parameter.quantity && !reading.context.dimensionless ? si_unit(*parameter.quantity) : "1";
   } else {
     set_axis_unit(reading.context.units.parse(unit), parameter, axis);

@@ -10,6 +10,7 @@
 #include "studies/reading/distribution_reading.hpp"
 #include "studies/reading/sample_reading.hpp"
 #include "studies/reading/sample_table.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -131,7 +132,7 @@ ParameterAxis& add_axis(SampleReading& reading, std::size_t parameter) {
 }
 
 std::string with_unit_of(const ParameterAxis& axis, const std::string& told) {
-  return axis.unit.empty() || axis.unit == "1" ? told : fmt::format("{} ({})", told, axis.unit);
+  return is_pure_number(axis.unit) ? told : fmt::format("{} ({})", told, axis.unit);
 }
 
 std::string quantile_name(double share) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "studies/reading/assignment.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 
@@ -38,7 +39,7 @@ SpokenValue spoken_value(const Study& study, std::size_t parameter, double si) {
   const bool is_si =
       definition.quantity && (spoken.unit.empty() || spoken.unit == si_unit(*definition.quantity));
   if (is_si) spoken.unit = written_si_unit(*definition.quantity);
-  if (study.dimensionless || spoken.unit == "1") spoken.unit.clear();
+  if (study.dimensionless || is_pure_number(spoken.unit)) spoken.unit.clear();
   return spoken;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "studies/reading/study_reading.hpp"
+#include "studies/reading/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -53,11 +54,11 @@ void check_over_band(Study& study, std::vector<double>& parameters, const std::s
 [[noreturn]] void refuse(const Study& study, const StudyValue& value, double found, double at,
                          const char* rule) {
   const BandChoice& band = *study.tune()->band;
-  const std::string& unit = band.unit.text;
-  throw study.source.error_at(rules::out_of_range, value.position, "{}: {} at {} = {:.6g}{}; {}", value.where,
+  throw study.source.error_at(rules::out_of_range, value.position, "{}: {} at {} = {}; {}", value.where,
                               std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
-                              study.parameters.list[band.parameter].name, at / band.unit.si_factor,
-                              unit.empty() || unit == "1" ? "" : " " + unit, rule);
+                              study.parameters.list[band.parameter].name,
+                              with_unit(fmt::format("{:.6g}", at / band.unit.si_factor), band.unit.text),
+                              rule);
 }
 
 void check_weight_and_rules(const Study& study, std::vector<double> parameters) {

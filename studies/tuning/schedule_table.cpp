@@ -6,6 +6,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "studies/reading/unit_words.hpp"
+
 namespace frahm::studies {
 namespace {
 
@@ -47,10 +49,6 @@ std::vector<double> places_of(const BandChoice& band, double step) {
   }
   places.push_back(to);
   return places;
-}
-
-std::string in_brackets(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
 }
 
 bool has_range(const ColumnChoice& column) {

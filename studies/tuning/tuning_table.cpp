@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "solvers/algebra/no_value.hpp"
+#include "studies/reading/unit_words.hpp"
 #include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
@@ -19,11 +20,7 @@ namespace {
 using tuning::Optimum;
 
 std::string eight_digits(double value, const std::string& unit) {
-  return fmt::format("{:.8g}{}", value, unit.empty() || unit == "1" ? "" : " " + unit);
-}
-
-std::string in_brackets(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+  return with_unit(fmt::format("{:.8g}", value), unit);
 }
 
 // The bound at which a parameter lies and, if it limits the optimum, the gain of moving it by one unit.
