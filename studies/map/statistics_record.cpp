@@ -24,6 +24,16 @@ std::vector<std::size_t> described_variables(const MapPlan& plan) {
   return described;
 }
 
+// How many slots, each with all samples of one quantity at one point, a thread takes at a time.
+std::size_t slots_together(std::size_t slots, std::size_t samples) {
+  return std::clamp<std::size_t>(most_values / samples, 1, slots);
+}
+
+// How many numbers tell the scatter of one quantity.
+std::size_t numbers_of_scatter(const MapPlan& plan) {
+  return 5 + 3 * plan.study.map()->samples->quantiles.size();
+}
+
 // In the order of statistics_variables().
 void append(const samples::Scatter& scatter, std::vector<double>& row) {
   row.assign({scatter.mean.value, scatter.mean.low, scatter.mean.high, scatter.deviation});
@@ -63,8 +73,7 @@ class StatisticsMaking {
   // The points of one tile beside the samples. A slot is one quantity at one of them, with all its samples.
   void take(const MapBox& column, GroupBesideSamples::Chunk& chunk) {
     const std::size_t points = column.points(), slots = points * variables_.size();
-    const std::size_t together = std::clamp<std::size_t>(most_values / samples_, 1, slots);
-    const std::size_t each = 5 + 3 * plan_.study.map()->samples->quantiles.size();
+    const std::size_t together = slots_together(slots, samples_), each = numbers_of_scatter(plan_);
     table_.assign(each * slots, kNone);
     for (std::size_t first = 0; first < slots; first += together) {
       const std::size_t last = std::min(slots, first + together);
@@ -126,6 +135,16 @@ class StatisticsMaking {
 
 bool has_statistics(const periodic::QuantityDescription& quantity) {
   return quantity.kind == periodic::QuantityKind::real && !quantity.name.ends_with("_phase");
+}
+
+double statistics_memory(const MapPlan& plan) {
+  if (!plan.study.map()->samples) return 0.0;
+  const Grid beside = grid_beside_samples(plan);
+  const std::size_t slots = beside.box(0).points() * described_variables(plan).size();
+  if (slots == 0) return 0.0;
+  const std::size_t samples = plan.grid.points() / beside.points();
+  const std::size_t numbers = slots_together(slots, samples) * samples + numbers_of_scatter(plan) * slots;
+  return static_cast<double>(numbers * sizeof(double));
 }
 
 std::vector<results::Variable> statistics_variables(const MapPlan& plan) {

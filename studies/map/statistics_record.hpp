@@ -16,6 +16,9 @@ bool has_statistics(const periodic::QuantityDescription& quantity);
 // the number of samples with a value.
 std::vector<results::Variable> statistics_variables(const MapPlan& plan);
 
+// What a thread holds while it makes the statistics of a map [bytes]; 0 for a map without samples.
+double statistics_memory(const MapPlan& plan);
+
 // The statistics over the samples at every point of the other axes, from the finished tiles, written to
 // /statistics; nothing for a map without samples. Memory is bounded: 64 MB a thread, and one tile. Where the
 // samples of a tile's points need more, its quantities are taken in several passes over the tiles.

@@ -19,6 +19,7 @@
 #include "studies/map/map_sample.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/map/motion_cost.hpp"
+#include "studies/map/statistics_record.hpp"
 #include "studies/map/unfit_systems.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
@@ -68,7 +69,8 @@ void print_prediction(const MapPlan& plan, const MapSample& sample, const Memory
   fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} {}/s on one, from {} points)\n",
              about_seconds(seconds), threads, threads == 1 ? "" : "s", rate, answers_noun(study),
              sample.points);
-  fmt::print(out, "memory  about {}\n", readable_size(memory.of_run(threads)));
+  fmt::print(out, "memory  about {}\n",
+             readable_size(memory.of_run(threads) + threads * statistics_memory(plan)));
   fmt::print(
       out, "file    about {} (its numbers {} before compression)\n",
       readable_size(static_cast<double>(sample.stored_bytes) * share +

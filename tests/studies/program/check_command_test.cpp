@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "studies/map/map_sample.hpp"
+#include "studies/map/statistics_record.hpp"
 #include "studies/program/memory_use.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/tuning/tuning_plan.hpp"
@@ -25,6 +26,7 @@ using frahm::studies::MemoryUse;
 using frahm::studies::plan_map;
 using frahm::studies::read_study_with;
 using frahm::studies::sample_map;
+using frahm::studies::statistics_memory;
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -145,6 +147,27 @@ TEST_CASE("A run takes the memory of a sample once for each thread") {
   const auto of_sample = 0.9 * static_cast<double>(sample.size());  // its pages, but for what lay free before
   CHECK(one > of_sample);
   CHECK(three - one > 2.0 * of_sample);
+}
+
+TEST_CASE("Statistics hold the samples of as many quantities as fit into 64 MB a thread") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "scatter.toml";
+  const auto memory = [&](int samples, const std::string& quantities) {
+    std::ofstream(path) << small_studies::oscillator() << "[[axis]]\nsamples = " << samples
+                        << "\n[[axis.of]]\nparameter = \"k\"\ndistribution = \"normal\"\nmean = 1\n"
+                           "deviation = 0.01\n[output]\nquantities = "
+                        << quantities << "\n";
+    return statistics_memory(plan_map(read_study_with(path, {}), {}));
+  };
+  constexpr double number = 8.0;             // bytes
+  constexpr double of_scatter = 5 + 3 * 3;   // numbers: mean, deviation, count and the usual three quantiles
+  constexpr double most = 64 * 1024 * 1024;  // bytes
+  CHECK(memory(1000, "[\"main_peak\"]") == number * (1000 + of_scatter));
+  CHECK(memory(1000, "[\"main_peak\", \"main_mean\"]") == number * 2 * (1000 + of_scatter));
+  const double many = memory(3'000'000, "[\"main_peak\", \"main_mean\", \"main_velocity_peak\"]");
+  CHECK(many == number * (2 * 3e6 + 3 * of_scatter));
+  CHECK(many < most);
+  CHECK(memory(1000, "[\"status\"]") == 0.0);
 }
 
 TEST_CASE("A sample of a map is at least a tile and at most the map") {
