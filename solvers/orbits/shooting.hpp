@@ -10,15 +10,17 @@
 // derivative of g; of a large system with one that is kept, corrected, and computed anew, in single
 // precision, where its steps no longer serve (KeptDerivative). If a Newton step reduces the residual too
 // little, the map itself is applied: under monotone laws it expands no distance in the energy norm, so the
-// search converges if the map contracts.
+// search converges if the map contracts. Where it only turns about its orbit, means of a state and its image
+// converge.
 namespace frahm::periodic {
 
 struct ShootingOptions {
   double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
   double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
   double pays = 0.1;           // part of the residual that a Newton step must remove, else it is refused
-  int most_halvings = 4;       // of a refused step, of a large system or under laws that are not monotone
-  int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
+  double leads = 0.9;  // part of the residual that the map alone may leave, else it is taken to lead nowhere
+  int most_halvings = 4;      // of a refused step, of a large system or under laws that are not monotone
+  int most_passages = 20000;  // enough for the map alone at damping ratios of 1e-3
   double most_steps_a_period = 2e5;
   double most_magnification = 1e13;  // of the static response: beyond, rounding of the orbit hides the forces
 };
@@ -62,6 +64,7 @@ class Shooting {
   bool try_steps(const typename S::State& step);
   bool try_shorter_steps(const typename S::State& step);
   void march(int maps);
+  void step_to_middle();
   void start_at_rest();
   bool is_resolved(const typename S::State& z) const;
   void conclude(Verdict verdict, Orbit<N, H>& orbit);

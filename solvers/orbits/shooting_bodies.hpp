@@ -36,7 +36,9 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
       verdict = Verdict::gave_up;
       break;
     }
+    const double before = current_.relative;
     march(maps);
+    if (!(current_.relative < options_.leads * before)) step_to_middle();
     maps = std::min(2 * maps, 256);
   }
   if (verdict == Verdict::converged) start_at_rest();
@@ -163,6 +165,17 @@ void Shooting<N, H>::march(int maps) {
     current_.z = sign_ * current_.passage.end;
     apply_map(current_);
   }
+}
+
+// z := (z + g(z)) / 2. The map of a monotone system takes no two states further apart in energy, yet it may
+// turn about its orbit without end: where contacts creep to their limits, half a period later the state is
+// its own mirror image for ever. Such means come to an orbit wherever there is one (Krasnosel'skii 1955, Mann
+// 1953).
+template <int N, int H>
+void Shooting<N, H>::step_to_middle() {
+  if (current_.passage.failure != nullptr) return;
+  current_.z += 0.5 * current_.residual;
+  apply_map(current_);
 }
 
 // Newton's step may leave a contact just above rest, with a slip of zero length at the start. The end of the
