@@ -92,8 +92,8 @@ TEST_CASE("From rest an independent integration of 60 random networks comes to t
   CHECK(check_networks(0, kNetworks) <= kFewUnsettled * kNetworks);
 }
 
-// Minutes: test_known_answers "[thorough]", which `./bootstrap checks` runs.
-TEST_CASE("So does that of 1000", "[.from_rest][.thorough]") {
+// Minutes: test_from_rest "[thorough]", which `./bootstrap checks` runs.
+TEST_CASE("So does that of 1000", "[.thorough]") {
   constexpr int kNetworks = 1000;
   const int unsettled = check_networks(0, kNetworks);
   WARN(unsettled << " of " << kNetworks << " not settled after " << kMostPeriods << " periods");
