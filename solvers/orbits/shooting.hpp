@@ -18,9 +18,10 @@ struct ShootingOptions {
   double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
   double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
   double pays = 0.1;           // part of the residual that a Newton step must remove, else it is refused
-  double leads = 0.9;  // part of the residual that the map alone may leave, else it is taken to lead nowhere
-  int most_halvings = 4;      // of a refused step, of a large system or under laws that are not monotone
-  int most_passages = 20000;  // enough for the map alone at damping ratios of 1e-3
+  double turns = 1e-6;         // the map only turns if it removes no more of the residual than this
+  int most_turns = 8;          // maps in a row
+  int most_halvings = 4;       // of a refused step, of a large system or under laws that are not monotone
+  int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
   double most_steps_a_period = 2e5;
   double most_magnification = 1e13;  // of the static response: beyond, rounding of the orbit hides the forces
 };

@@ -38,7 +38,8 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
     }
     const double before = current_.relative;
     march(maps);
-    if (!(current_.relative < options_.leads * before)) step_to_middle();
+    const bool turns = current_.relative > (1.0 - options_.turns) * before;
+    if (turns && maps >= options_.most_turns) step_to_middle();
     maps = std::min(2 * maps, 256);
   }
   if (verdict == Verdict::converged) start_at_rest();

@@ -34,10 +34,11 @@ TEST_CASE("What leaves the motion of a random network as it is leaves its respon
 // 503736: friction holds a mass against a force through 10^4 steps. 504224: two contacts hold for ever, one
 // on a weak spring; the search came from afar. 603720, 626547, 666023, 673959, 668320, 623420: contacts in
 // loops share forces, at their limits and off them again. 646138: one between masses that rest on the same
-// support.
+// support. 4929, 2001696: where a contact creeps to its limit for ever, the half-period map turned the state
+// over and over.
 TEST_CASE("Networks that once broke an invariant keep them all") {
-  for (const std::uint64_t seed :
-       {503736, 504224, 603720, 605939, 623420, 626547, 646138, 666023, 666224, 668320, 673959}) {
+  for (const std::uint64_t seed : {4929, 503736, 504224, 603720, 605939, 623420, 626547, 646138, 666023,
+                                   666224, 668320, 673959, 2001696}) {
     INFO("random_invariants --seed " << seed);
     CHECK(broken_by(seed, Of::all) == "");
   }
