@@ -70,7 +70,7 @@ double RestSearch<N, H>::distance_slid(Eigen::Index j, const Orbit<N, H>& orbit)
   const auto& segments = orbit.passage.segments;
   double distance = 0.0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (contains(flow_.mode(segments[i].mode).stuck, j)) continue;
+    if (flow_.rests(flow_.mode(segments[i].mode), j)) continue;
     const auto& end = i + 1 < segments.size() ? segments[i + 1].z : orbit.passage.end;
     distance += std::abs(eq.W.col(j).dot((end - segments[i].z).head(eq.masses())));
   }
@@ -82,7 +82,7 @@ template <int N, int H>
 double RestSearch<N, H>::time_slid(Eigen::Index j, const Orbit<N, H>& orbit) const {
   double time = 0.0;
   for (const Segment<N, H>& segment : orbit.passage.segments) {
-    if (!contains(flow_.mode(segment.mode).stuck, j)) time += segment.length;
+    if (!flow_.rests(flow_.mode(segment.mode), j)) time += segment.length;
   }
   return time;
 }
