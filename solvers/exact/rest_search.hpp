@@ -45,7 +45,7 @@ class RestSearch {
 
  private:
   bool hold_some(ContactMask barely, Orbit<N, H>& orbit);
-  ContactMask slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const;
+  ContactMask let_go(ContactMask contacts, const Orbit<N, H>& orbit);
   double time_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   void hold_all(Orbit<N, H>& orbit);
   bool rests_in_loops(const Orbit<N, H>& orbit) const;
@@ -140,16 +140,15 @@ bool RestSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   return true;
 }
 
-// Holds of these contacts as many as forces within their limits can, first without the one that slides
-// longest, and then those that barely slide in the orbit that this gives. False, with `orbit` unchanged, if
-// none is held.
+// Holds of these contacts as many as forces within their limits can, and then those that barely slide in the
+// orbit that this gives. False, with `orbit` unchanged, if none is held.
 template <int N, int H>
 bool RestSearch<N, H>::hold_some(ContactMask barely, Orbit<N, H>& orbit) {
   ContactMask tried = 0;
   bool holds = false;
   while ((barely & ~tried) != 0) {
     tried |= barely;
-    while (barely != 0 && !try_held(barely, orbit)) barely &= ~slides_longest(barely, orbit);
+    while (barely != 0 && !try_held(barely, orbit)) barely &= ~let_go(barely, orbit);
     if (barely == 0) break;
     holds = true;
     barely = sliding_less_than(0.01, orbit);
@@ -157,9 +156,23 @@ bool RestSearch<N, H>::hold_some(ContactMask barely, Orbit<N, H>& orbit) {
   return holds;
 }
 
-// Of these contacts the one that slides longest.
+// Of these contacts, which cannot all be held, one that is let go: that whose force, with all of them held,
+// varies most of those that vary by more than their limits are apart; in a loop the others may hold it. If
+// there is none, the one that slides longest.
 template <int N, int H>
-ContactMask RestSearch<N, H>::slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const {
+ContactMask RestSearch<N, H>::let_go(ContactMask contacts, const Orbit<N, H>& orbit) {
+  const auto variation = [&](Eigen::Index j) {
+    const StuckForce force = stuck_forces(bit(j), trial_).front();
+    return (force.most - force.least) / (2.0 * force.limit);
+  };
+  Eigen::Index widest = first(contacts);
+  double most = 1.0;
+  for (Eigen::Index j = widest; trial_.is_found() && j < flow_.equations().contacts(); ++j) {
+    if (!contains(contacts & trial_.stuck_throughout, j) || variation(j) <= most) continue;
+    widest = j;
+    most = variation(j);
+  }
+  if (most > 1.0) return bit(widest);
   Eigen::Index longest = first(contacts);
   for (Eigen::Index j = longest; j < flow_.equations().contacts(); ++j) {
     if (contains(contacts, j) && time_slid(j, orbit) > time_slid(longest, orbit)) longest = j;

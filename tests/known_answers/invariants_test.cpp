@@ -36,8 +36,9 @@ TEST_CASE("What leaves the motion of a random network as it is leaves its respon
 // loops share forces, at their limits and off them again. 646138: one between masses that rest on the same
 // support. 4929, 2001696: where a contact creeps to its limit for ever, the half-period map turned the state
 // over and over. 2006082: of contacts in a loop one that rests by the others was taken for one that slides.
+// 3510: one carries its limit at times while the others hold it, and another was let go.
 TEST_CASE("Networks that once broke an invariant keep them all") {
-  for (const std::uint64_t seed : {4929, 503736, 504224, 603720, 605939, 623420, 626547, 646138, 666023,
+  for (const std::uint64_t seed : {3510, 4929, 503736, 504224, 603720, 605939, 623420, 626547, 646138, 666023,
                                    666224, 668320, 673959, 2001696, 2006082}) {
     INFO("random_invariants --seed " << seed);
     CHECK(broken_by(seed, Of::all) == "");
