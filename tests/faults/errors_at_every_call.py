@@ -16,13 +16,14 @@ POINTS_OF_TILE = 129
 
 
 def changes_that_fail(calls):
-    """A full disk and a broken one at each call; other errors here and there."""
+    """A disk that is full from each call on, and one that is broken at it; the other way round, and other errors, here
+    and there."""
     for call in calls:
-        yield Fault(call.number, "fail", errno.ENOSPC)
         yield Fault(call.number, "fail_on", errno.ENOSPC)
         yield Fault(call.number, "fail", errno.EIO)
-        yield Fault(call.number, "fail_on", errno.EIO)
     for call in sampled(calls, 20):
+        yield Fault(call.number, "fail", errno.ENOSPC)
+        yield Fault(call.number, "fail_on", errno.EIO)
         yield Fault(call.number, "fail_on", errno.EROFS)
         yield Fault(call.number, "fail_on", errno.EDQUOT)
         yield Fault(call.number, "fail", errno.EACCES)

@@ -6,6 +6,7 @@ import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { basename, dirname, join } from "node:path";
+import { after } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 // Set by CTest.
@@ -93,14 +94,18 @@ print(json.dumps(found))`;
   );
 }
 
-// A page in the browser; closed at the end of the test. {page, complaints}.
+// One browser for all tests of a file: it takes a second to start.
+let browser;
+export const closeBrowser = () => browser?.close();
+after(closeBrowser);
+
+// A page in a session of its own; closed at the end of the test. {page, complaints}.
 export async function open(
   test,
   file,
   { width = 1280, height = 900, colorScheme = "light", hasTouch = false } = {},
 ) {
-  const browser = await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox"] });
-  test.after(() => browser.close());
+  browser ??= await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox"] });
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme,
@@ -108,6 +113,7 @@ export async function open(
     isMobile: hasTouch,
     acceptDownloads: true,
   });
+  test.after(() => context.close());
   const page = await context.newPage();
   const complaints = [];
   page.on("console", (message) => {

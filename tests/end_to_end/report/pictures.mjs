@@ -1,11 +1,11 @@
 // pictures.mjs: draws the pictures of pages that the documents show anew, from the studies that they are of.
 import { join } from "node:path";
-import { folderOf, frahm, open, sources, study } from "./page.mjs";
+import { closeBrowser, folderOf, frahm, open, sources, study } from "./page.mjs";
 
 const width = 960;
 
 // What a test gives its helpers: calls kept for the end.
-const ends = [];
+const ends = [closeBrowser];
 const keeper = { after: (call) => ends.push(call) };
 
 async function pageOf(name) {
