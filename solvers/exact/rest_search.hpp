@@ -46,6 +46,8 @@ class RestSearch {
  private:
   bool hold_some(ContactMask barely, Orbit<N, H>& orbit);
   ContactMask let_go(ContactMask contacts, const Orbit<N, H>& orbit);
+  ContactMask varies_most(ContactMask held);
+  ContactMask slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const;
   double time_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   void hold_all(Orbit<N, H>& orbit);
   bool rests_in_loops(const Orbit<N, H>& orbit) const;
@@ -156,23 +158,33 @@ bool RestSearch<N, H>::hold_some(ContactMask barely, Orbit<N, H>& orbit) {
   return holds;
 }
 
-// Of these contacts, which cannot all be held, one that is let go: that whose force, with all of them held,
-// varies most of those that vary by more than their limits are apart; in a loop the others may hold it. If
-// there is none, the one that slides longest.
+// Of these contacts, which cannot all be held, one that is let go.
 template <int N, int H>
 ContactMask RestSearch<N, H>::let_go(ContactMask contacts, const Orbit<N, H>& orbit) {
-  const auto variation = [&](Eigen::Index j) {
-    const StuckForce force = stuck_forces(bit(j), trial_).front();
-    return (force.most - force.least) / (2.0 * force.limit);
-  };
-  Eigen::Index widest = first(contacts);
+  const ContactMask beyond = trial_.is_found() ? varies_most(contacts & trial_.stuck_throughout) : 0;
+  return beyond != 0 ? beyond : slides_longest(contacts, orbit);
+}
+
+// Of these contacts, which the last trial held, the one whose force varies most, if by more than its limits
+// are apart: nothing that shifts the forces holds it. In a loop the others may, while it carries its limit.
+template <int N, int H>
+ContactMask RestSearch<N, H>::varies_most(ContactMask held) {
+  ContactMask result = 0;
   double most = 1.0;
-  for (Eigen::Index j = widest; trial_.is_found() && j < flow_.equations().contacts(); ++j) {
-    if (!contains(contacts & trial_.stuck_throughout, j) || variation(j) <= most) continue;
-    widest = j;
-    most = variation(j);
+  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
+    if (!contains(held, j)) continue;
+    const StuckForce force = stuck_forces(bit(j), trial_).front();
+    const double variation = (force.most - force.least) / (2.0 * force.limit);
+    if (variation <= most) continue;
+    result = bit(j);
+    most = variation;
   }
-  if (most > 1.0) return bit(widest);
+  return result;
+}
+
+// Of these contacts the one that slides longest.
+template <int N, int H>
+ContactMask RestSearch<N, H>::slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const {
   Eigen::Index longest = first(contacts);
   for (Eigen::Index j = longest; j < flow_.equations().contacts(); ++j) {
     if (contains(contacts, j) && time_slid(j, orbit) > time_slid(longest, orbit)) longest = j;
