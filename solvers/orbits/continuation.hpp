@@ -50,6 +50,7 @@ class Continuation {
   };
 
   void predict(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
+  void find_from_rest(Orbit<N, H>& orbit);
   typename S::State response_without_friction(const mechanics::LinearSystem& system, double phase) const;
   bool move_section(Orbit<N, H>& orbit) const;
   void remember(double omega, const Orbit<N, H>& orbit);
@@ -75,6 +76,7 @@ void Continuation<N, H>::find(const mechanics::LinearSystem& system, Orbit<N, H>
     predict(system, orbit);
     shooting_.find(orbit);
   }
+  if (orbit.status == Status::failed && orbit.passage.failure == nullptr) find_from_rest(orbit);
   if (orbit.status == Status::failed) {
     known_ = 0;
     return;
@@ -121,6 +123,19 @@ void Continuation<N, H>::predict(const mechanics::LinearSystem& system, Orbit<N,
     orbit.z += (above / below) * history_[i].z;
   }
   orbit.z.segment(n, n) *= flow_.equations().step;
+}
+
+// Newton's method may lead so far out that friction holds the masses there, and the map brings them back by
+// no more than the stroke of a support in a period. From rest the map itself leads to the neighbourhood of
+// the orbit.
+template <int N, int H>
+void Continuation<N, H>::find_from_rest(Orbit<N, H>& orbit) {
+  constexpr int kMaps = 16;
+  if (!flow_.equations().monotone) return;  // the map does not lead to an orbit by itself
+  forget();
+  orbit.section = section_;
+  orbit.z.setZero();
+  shooting_.find(orbit, 0, kMaps);
 }
 
 // The steady state without friction; the state at rest if it is not finite. With friction the steady state

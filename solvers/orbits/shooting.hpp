@@ -20,6 +20,7 @@ struct ShootingOptions {
   double pays = 0.1;           // part of the residual that a Newton step must remove, else it is refused
   double turns = 1e-6;         // the map only turns if it removes no more of the residual than this
   int most_turns = 8;          // maps in a row
+  int most_maps = 256;         // in a row, before Newton's method is tried again
   int most_halvings = 4;       // of a refused step, of a large system or under laws that are not monotone
   int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
   double most_steps_a_period = 2e5;
@@ -46,8 +47,9 @@ class Shooting {
       : flow_(flow), walk_(flow), options_(options) {}
 
   // Starts from the state orbit.z at orbit.section; orbit.half_period selects the map. Fills the rest of
-  // `orbit`. held: contacts that stick regardless of their force.
-  void find(Orbit<N, H>& orbit, ContactMask held = 0);
+  // `orbit`. held: contacts that stick regardless of their force. maps_first: of the map, before Newton's
+  // method.
+  void find(Orbit<N, H>& orbit, ContactMask held = 0, int maps_first = 0);
   // The next search has no derivative of an earlier one.
   void forget() { kept_.forget(); }
 
@@ -64,7 +66,9 @@ class Shooting {
   bool try_step(const typename S::State& step, double share = 1.0);
   bool try_steps(const typename S::State& step);
   bool try_shorter_steps(const typename S::State& step);
+  Verdict go_by_map(int& maps);
   void march(int maps);
+  bool creeps(double before, int maps) const;
   void step_to_middle();
   void start_at_rest();
   bool is_resolved(const typename S::State& z) const;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/orbits/reasons.hpp"
@@ -11,7 +13,7 @@
 namespace frahm::periodic {
 
 template <int N, int H>
-void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
+void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held, int maps_first) {
   const double period = flow_.equations().period;
   section_ = orbit.section;
   sign_ = orbit.sign();
@@ -25,23 +27,9 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
   }
   current_.z = orbit.z;
   apply_map(current_);
+  march(maps_first);
   Verdict verdict = judge();
-  for (int maps = 2; verdict == Verdict::go_on; verdict = judge()) {
-    if (take_newton_step()) continue;
-    if (current_.relative <= options_.good_enough) {
-      verdict = Verdict::converged;
-      break;
-    }
-    if (!flow_.equations().monotone) {  // the map does not lead to an orbit by itself
-      verdict = Verdict::gave_up;
-      break;
-    }
-    const double before = current_.relative;
-    march(maps);
-    const bool turns = current_.relative > (1.0 - options_.turns) * before;
-    if (turns && maps >= options_.most_turns) step_to_middle();
-    maps = std::min(2 * maps, 256);
-  }
+  for (int maps = 2; verdict == Verdict::go_on;) verdict = take_newton_step() ? judge() : go_by_map(maps);
   if (verdict == Verdict::converged) start_at_rest();
   conclude(verdict, orbit);
 }
@@ -159,6 +147,23 @@ bool Shooting<N, H>::try_step(const typename S::State& step, double share) {
   return true;
 }
 
+// Where Newton's step does not serve; maps: in a row, more each time.
+template <int N, int H>
+typename Shooting<N, H>::Verdict Shooting<N, H>::go_by_map(int& maps) {
+  if (current_.relative <= options_.good_enough) return Verdict::converged;
+  if (!flow_.equations().monotone) return Verdict::gave_up;  // the map does not lead to an orbit by itself
+  const double before = current_.relative;
+  march(maps);
+  const bool turns = current_.relative > (1.0 - options_.turns) * before;
+  if (turns && maps >= options_.most_turns) {
+    step_to_middle();
+  } else if (creeps(before, maps)) {
+    return Verdict::gave_up;
+  }
+  maps = std::min(2 * maps, options_.most_maps);
+  return judge();
+}
+
 template <int N, int H>
 void Shooting<N, H>::march(int maps) {
   for (int i = 0; i < maps && current_.passage.failure == nullptr && current_.relative > options_.tolerance;
@@ -166,6 +171,17 @@ void Shooting<N, H>::march(int maps) {
     current_.z = sign_ * current_.passage.end;
     apply_map(current_);
   }
+}
+
+// Whether the map, near its orbit, would take more passages than the search may at the rate of these maps:
+// where contacts slip ever less they are to be held.
+template <int N, int H>
+bool Shooting<N, H>::creeps(double before, int maps) const {
+  constexpr double kNear = 1e-9;  // of the relative residual
+  if (maps < options_.most_maps || !(current_.relative < kNear)) return false;
+  const double removed = std::log(before / current_.relative);
+  const double wanted = std::log(current_.relative / options_.good_enough);
+  return wanted * maps > removed * options_.most_passages;
 }
 
 // z := (z + g(z)) / 2. The map of a monotone system takes no two states further apart in energy, yet it may
