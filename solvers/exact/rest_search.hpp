@@ -36,7 +36,7 @@ class RestSearch {
   enum class Shift { none, near, far };
   // Moves `orbit` to the rest position of least energy; if a force reaches its limit there, the orbit is
   // grazing. `orbit` is unchanged if no rest position keeps the forces within their limits.
-  Shift shift(Orbit<N, H>& orbit);
+  Shift shift(Orbit<N, H>& orbit) { return shift(orbit, Forces::all); }
 
   // Whether an orbit exists with these contacts held by forces within their limits; sets `orbit` to it.
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
@@ -44,16 +44,24 @@ class RestSearch {
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
 
  private:
+  // Which forces must stay within their limits: in a loop they may be shared otherwise than they are told.
+  enum class Forces { all, outside_loops };
+  Shift shift(Orbit<N, H>& orbit, Forces which);
+  bool rests_with_other_shares(ContactMask held);
+
   bool hold_some(ContactMask barely, Orbit<N, H>& orbit);
   ContactMask let_go(ContactMask contacts, const Orbit<N, H>& orbit);
   ContactMask varies_most(ContactMask held);
   ContactMask slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const;
   double time_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   void hold_all(Orbit<N, H>& orbit);
+  ContactMask at_rest(const Mode<N, H>& mode) const;
+  ContactMask in_loops(const Mode<N, H>& mode) const;
   bool rests_in_loops(const Orbit<N, H>& orbit) const;
 
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
-  std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit);
+  std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit,
+                                       Forces which = Forces::all);
   double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
 
   Forms<N, H> forms_;
@@ -137,9 +145,21 @@ bool RestSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
     shooting_.find(trial_, held);
     moved = trial_.is_found() ? shift(trial_) : Shift::none;
   }
-  if (moved != Shift::near) return false;
+  if (moved == Shift::far || (moved == Shift::none && !rests_with_other_shares(held))) return false;
   std::swap(orbit, trial_);
   return true;
+}
+
+// Held contacts take any share of a loop's forces, be it beyond their limits, where they might carry less. So
+// the forces outside loops alone say where they rest, and the motion that is followed from there, with none
+// held, shows whether the loops can share what is left.
+template <int N, int H>
+bool RestSearch<N, H>::rests_with_other_shares(ContactMask held) {
+  if (!trial_.is_found() || !rests_in_loops(trial_)) return false;
+  if (shift(trial_, Forces::outside_loops) != Shift::near) return false;
+  return std::ranges::all_of(trial_.passage.segments, [&](const Segment<N, H>& segment) {
+    return (held & ~at_rest(flow_.mode(segment.mode))) == 0;
+  });
 }
 
 // Holds of these contacts as many as forces within their limits can, and then those that barely slide in the
@@ -206,15 +226,26 @@ void RestSearch<N, H>::hold_all(Orbit<N, H>& orbit) {
   std::swap(orbit, trial_);
 }
 
-// The forces of these contacts over the orbit, while they stick.
+// The forces of these contacts over the orbit, while they stick; what is not told of one counts as the first
+// of its forces that is.
 template <int N, int H>
-std::vector<StuckForce> RestSearch<N, H>::stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit) {
+std::vector<StuckForce> RestSearch<N, H>::stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit,
+                                                       Forces which) {
   steps_.lay_out(orbit);
+  const auto is_told = [&](Eigen::Index j, const Mode<N, H>& mode) {
+    return contains(mode.stuck, j) && (which == Forces::all || !contains(in_loops(mode), j));
+  };
   std::vector<StuckForce> forces;
   for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
     if (!contains(contacts, j)) continue;
+    LinearForm<N, H> first_told = forms_.zero();
+    const auto steps = steps_.steps();
+    const auto told =
+        std::ranges::find_if(steps, [&](const auto& step) { return is_told(j, flow_.mode(step.mode)); });
+    if (told != steps.end())
+      first_told.u[0] = forms_.stuck_contact_force(j, flow_.mode(told->mode)).at(told->left).value;
     const auto form = [&](const Mode<N, H>& mode) {
-      return contains(mode.stuck, j) ? forms_.stuck_contact_force(j, mode) : forms_.zero();
+      return is_told(j, mode) ? forms_.stuck_contact_force(j, mode) : first_told;
     };
     const Extremes force = find_extremes(steps_, flow_, orbit.section, form);
     forces.push_back({force.least, force.most, flow_.equations().static_limit[j]});
@@ -222,24 +253,48 @@ std::vector<StuckForce> RestSearch<N, H>::stuck_forces(ContactMask contacts, con
   return forces;
 }
 
+template <int N, int H>
+ContactMask RestSearch<N, H>::at_rest(const Mode<N, H>& mode) const {
+  ContactMask result = 0;
+  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
+    if (flow_.rests(mode, j)) result |= bit(j);
+  }
+  return result;
+}
+
+// The contacts whose velocity is held at rest in this mode and that are part of a loop of such.
+template <int N, int H>
+ContactMask RestSearch<N, H>::in_loops(const Mode<N, H>& mode) const {
+  constexpr double kNoPart = 1e-9;  // of a loop of length 1: rounding
+  const StepEquations<N, H>& eq = flow_.equations();
+  if (!eq.has_loops) return 0;
+  const ContactMask contacts = at_rest(mode) & eq.holding;
+  std::vector<Eigen::Index> resting;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(contacts, j)) resting.push_back(j);
+  }
+  if (resting.size() < 2) return 0;
+  const Eigen::MatrixXd loops = algebra::null_space(eq.W(Eigen::all, resting));
+  ContactMask result = 0;
+  for (std::size_t i = 0; i < resting.size(); ++i) {
+    if (loops.row(static_cast<Eigen::Index>(i)).norm() > kNoPart) result |= bit(resting[i]);
+  }
+  return result;
+}
+
 // Whether contacts that rest at one time form a loop.
 template <int N, int H>
 bool RestSearch<N, H>::rests_in_loops(const Orbit<N, H>& orbit) const {
-  const StepEquations<N, H>& eq = flow_.equations();
-  return eq.has_loops && std::ranges::any_of(orbit.passage.segments, [&](const Segment<N, H>& segment) {
-           std::vector<Eigen::Index> resting;
-           for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-             if (eq.holds(j) && flow_.rests(flow_.mode(segment.mode), j)) resting.push_back(j);
-           }
-           return resting.size() > 1 && algebra::null_space(eq.W(Eigen::all, resting)).cols() > 0;
-         });
+  return std::ranges::any_of(orbit.passage.segments, [&](const Segment<N, H>& segment) {
+    return in_loops(flow_.mode(segment.mode)) != 0;
+  });
 }
 
 template <int N, int H>
-typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
+typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit, Forces which) {
   if (orbit.stuck_throughout == 0) return Shift::none;  // a slider that was to be held slid from the start
   const StepEquations<N, H>& eq = flow_.equations();
-  const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit);
+  const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit, which);
   integrals_.integrate(steps_, flow_, orbit.half_period, {},
                        [](const auto&, auto& powers) { powers.clear(); });
   const double period = eq.period * eq.step;
@@ -254,9 +309,10 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   // force at its limit now a contact may slip by rounding: then only if the shares told break a limit.
   const bool is_inside = found.verdict == RestShift::Verdict::inside;
   const bool stood_at_limit = orbit.status == Status::grazing && is_inside;
-  const bool shares_anew = !by.isZero(0.0) && rests_in_loops(orbit) &&
-                           (is_inside || std::ranges::any_of(stuck_forces(flow_.equations().holding, orbit),
-                                                             &StuckForce::breaks_limit));
+  const bool shares_anew = which == Forces::outside_loops ||
+                           (!by.isZero(0.0) && rests_in_loops(orbit) &&
+                            (is_inside || std::ranges::any_of(stuck_forces(flow_.equations().holding, orbit),
+                                                              &StuckForce::breaks_limit)));
   if (stood_at_limit || shares_anew) {
     shooting_.find(orbit);
     if (!orbit.is_found()) return Shift::none;
