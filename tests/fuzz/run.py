@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Runs each fuzzer for a stated number of inputs and prints what became of them, by kind of input.
 
-usage: run.py [--build FOLDER] [--inputs NUMBER] [--seed NUMBER] [TARGET ...]
+usage: run.py [--build FOLDER] [--inputs NUMBER] [--seed NUMBER] [TARGET[:NUMBER] ...]
+
+One fuzzer runs on each core. TARGET:NUMBER has its own number of inputs.
 
 A finding - a signal, an exception that is no message, a sanitizer's report, more than 20 s or 1 GB - is kept in
 FOLDER/findings, named, and makes the exit code 1; the fuzzer goes on with another seed. What helps the next time is
@@ -14,6 +16,7 @@ import re
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -91,16 +94,16 @@ def environment():
     return quiet
 
 
-def fuzz(target, options, work):
+def fuzz(target, inputs, options, work):
     """Runs one target; returns (inputs, read, refused, {(kind, place): path of an input})."""
     seeds, dictionary = seeds_for(target, work)
     corpus, findings = work / "corpus" / target, work / "findings"
     corpus.mkdir(parents=True, exist_ok=True)
     findings.mkdir(parents=True, exist_ok=True)
     done, read, refused, ends, found, seed = 0, 0, 0, 0, {}, options.seed
-    while done < options.inputs and ends < MOST_ENDS:
+    while done < inputs and ends < MOST_ENDS:
         prefix = f"{findings}/{target}-{seed}-"
-        command = [f"{options.build}/bin/fuzz_{target}", f"-runs={options.inputs - done}", f"-seed={seed}",
+        command = [f"{options.build}/bin/fuzz_{target}", f"-runs={inputs - done}", f"-seed={seed}",
                    f"-rss_limit_mb={MEGABYTES}", f"-timeout={SECONDS}", f"-max_len={TARGETS[target][0]}",
                    f"-dict={dictionary}", "-print_final_stats=1", "-verbosity=1", f"-artifact_prefix={prefix}",
                    str(corpus), str(seeds)]
@@ -131,16 +134,22 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("targets", nargs="*", default=list(TARGETS), metavar="TARGET")
     options = parser.parse_args()
-    rows, findings = [], 0
-    for target in options.targets or TARGETS:
+    row_format = "{:12} {:9} inputs {:9} read {:9} refused {:4} findings {:6.0f} s"
+
+    def row_of(asked):
+        target, _, number = asked.partition(":")
         start = time.monotonic()
-        done, read, refused, found = fuzz(target, options, options.build / "fuzz")
-        findings += len(found)
-        rows.append((target, done, read, refused, len(found), time.monotonic() - start))
-        print("{:12} {:9} inputs {:9} read {:9} refused {:4} findings {:6.0f} s".format(*rows[-1]), flush=True)
+        done, read, refused, found = fuzz(target, int(number or options.inputs), options, options.build / "fuzz")
+        return target, done, read, refused, len(found), time.monotonic() - start
+
+    rows = []
+    with ThreadPoolExecutor(os.cpu_count()) as cores:
+        for row in cores.map(row_of, options.targets or TARGETS):
+            rows.append(row)
+            print(row_format.format(*row), flush=True)
     total = [sum(row[i] for row in rows) for i in range(1, 6)]
-    print("{:12} {:9} inputs {:9} read {:9} refused {:4} findings {:6.0f} s".format("all", *total))
-    return 1 if findings else 0
+    print(row_format.format("all", *total))
+    return 1 if total[3] else 0
 
 
 if __name__ == "__main__":
