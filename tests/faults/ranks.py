@@ -5,6 +5,7 @@ rank is noticed, and the others finish without it.
 usage: ranks.py FRAHM SOURCE_DIR MPIEXEC
 """
 
+import contextlib
 import os
 import random
 import signal
@@ -31,38 +32,51 @@ class Launcher:
     def __init__(self, mpiexec):
         self.mpiexec = mpiexec
 
-    def start(self, place, ranks, environment=None, options=()):
+    def start(self, place, ranks, environment=None, options=(), **how):
         command = ["-np", str(ranks), place.bench.program, "run", "study.toml", "-o", OUTPUT, "--threads", "1",
                    "--progress", "none", *options]
-        return place.start(*command, environment=dict(environment or os.environ, **ALLOWED), program=self.mpiexec)
+        return place.start(*command, environment=dict(environment or os.environ, **ALLOWED), program=self.mpiexec, **how)
 
 
 def ranks_of(process):
-    """The processes that a launcher has started."""
-    with open(f"/proc/{process.pid}/task/{process.pid}/children") as file:
-        return [int(pid) for pid in file.read().split()]
+    """The living processes that a launcher has started, those that outlive it too, each with its state: "T" if it is stopped."""
+    states = {}
+    for pid in filter(str.isdecimal, os.listdir("/proc")):
+        with contextlib.suppress(FileNotFoundError, ProcessLookupError), open(f"/proc/{pid}/stat") as file:
+            state, _, _, session = file.read().rsplit(")", 1)[1].split()[:4]
+            if int(session) == process.pid != int(pid) and state not in "ZX":
+                states[int(pid)] = state
+    return states
 
 
-def state_of(pid):
-    """"R" of a process that runs, "T" of one that is stopped, "Z" of one that has ended and is not waited for; "" if there is none."""
-    try:
-        with open(f"/proc/{pid}/stat") as file:
-            return file.read().rsplit(")", 1)[1].split()[0]
-    except FileNotFoundError:
-        return ""
+def send(number, *pids):
+    """A process may have ended meanwhile."""
+    for pid in pids:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, number)
+
+
+def wait_for(condition, what):
+    give_up = time.monotonic() + TIME_LIMIT
+    while not (found := condition()):
+        assert time.monotonic() < give_up, f"not within {TIME_LIMIT} s: {what}"
+        time.sleep(0.01)
+    return found
 
 
 def job_ended(process):
     """As ended(); but where ranks are killed as they start, Open MPI's launcher itself may wait for ever for their
-    greeting. That is no hang of ours if none of the ranks lives; any other is."""
+    greeting. That is no hang of ours if none of the ranks lives; any other is. A killed rank that waits for the disk
+    outlives its launcher, and holds its locks."""
     try:
         process.wait(TIME_LIMIT)
     except subprocess.TimeoutExpired:
-        alive = [pid for pid in ranks_of(process) if state_of(pid) not in ("", "Z")]
-        assert not alive, f"ranks {alive} hang"
+        assert not ranks_of(process), f"ranks {ranks_of(process)} hang"
         print("the launcher outlived all its ranks and was killed", flush=True)
         process.kill()
-    return ended(process)
+    outcome = ended(process)
+    wait_for(lambda: not ranks_of(process), "the end of all ranks")
+    return outcome
 
 
 def kept(place):
@@ -73,7 +87,7 @@ def go_on(launcher, place, expected, case):
     """By any other way of running."""
     ranks = random.choice([0, 2, 3])
     if ranks > 0:
-        outcome = ended(launcher.start(place, ranks))
+        outcome = job_ended(launcher.start(place, ranks))
         assert outcome.code == 0, f"{case}: on {ranks} ranks: {outcome}"
     expected.check_resume(place, case)
 
@@ -84,7 +98,7 @@ def kill_at_calls(launcher, bench, study, expected):
     for rank in range(RANKS):
         place = bench.place(study)
         environment = dict(place.environment(Fault()), FAULT_RANK=str(rank))
-        assert ended(launcher.start(place, RANKS, environment)).code == 0
+        assert job_ended(launcher.start(place, RANKS, environment)).code == 0
         faults += [(rank, Fault(call.number, how)) for call in sampled(place.calls(), CALLS)
                    for how in ("kill_before", "kill_half", "kill_after")]
 
@@ -110,12 +124,11 @@ def kill_at_random(launcher, bench, study, expected):
     while kills < KILLS:
         process = launcher.start(place, RANKS)
         time.sleep(random.uniform(0.1, 0.6))
-        ranks = ranks_of(process) if process.poll() is None else []
+        ranks = list(ranks_of(process))
         if ranks and random.random() < 0.5:
-            os.kill(random.choice(ranks), signal.SIGKILL)
+            send(signal.SIGKILL, random.choice(ranks))
         elif ranks:
-            for pid in (process.pid, *ranks):
-                os.kill(pid, signal.SIGKILL)
+            send(signal.SIGKILL, process.pid, *ranks)
         outcome = job_ended(process)
         kills += outcome.code != 0
         if OUTPUT in place.names():
@@ -133,35 +146,33 @@ def second_tile_of(launcher, bench, study, rank):
     """The number of the call by which a rank appends its second tile to its log."""
     place = bench.place(study)
     environment = dict(place.environment(Fault()), FAULT_RANK=str(rank))
-    assert ended(launcher.start(place, RANKS, environment)).code == 0
+    assert job_ended(launcher.start(place, RANKS, environment)).code == 0
     appends = [call.number for call in place.calls()
                if call.name == "pwrite" and call.path.endswith(".frahm-log") and call.offset >= HEADER_SIZE]
     return appends[1]
 
 
-def wait_for_frozen(process):
-    give_up = time.monotonic() + TIME_LIMIT
-    while True:
-        for pid in ranks_of(process):
-            if state_of(pid) == "T":
-                return pid
-        assert process.poll() is None and time.monotonic() < give_up, "no rank has frozen"
-        time.sleep(0.01)
+def read_again(file):
+    file.seek(0)
+    return file.read()
 
 
 def freeze(launcher, bench, study, expected, at_call, thaws):
     """The last of the ranks freezes when it has finished a tile; the job ends without it."""
     place = bench.place(study)
     environment = dict(place.environment(Fault(at_call, "freeze")), FAULT_RANK=str(RANKS - 1))
-    process = launcher.start(place, RANKS, environment, ("--rank-silence", "2s"))
-    frozen = wait_for_frozen(process)
-    if thaws:
-        time.sleep(3.5)
-        os.kill(frozen, signal.SIGCONT)
-    outcome = job_ended(process)
+    given_up = "has not been heard of for 2 s"
+    with open(place.folder + ".told", "a+") as told:
+        process = launcher.start(place, RANKS, environment, ("--rank-silence", "2s"), stderr=told)
+        frozen = wait_for(lambda: [pid for pid, state in ranks_of(process).items() if state == "T"], "a frozen rank")
+        if thaws:
+            wait_for(lambda: given_up in read_again(told), "word of the frozen rank")
+            send(signal.SIGCONT, *frozen)
+        outcome = job_ended(process)
+        outcome.err = read_again(told)
     case = f"a rank that freezes{' and thaws' if thaws else ''}"
     assert outcome.code == 0, f"{case}: {outcome}"
-    assert "has not been heard of for 2 s" in outcome.err, f"{case}: {outcome}"
+    assert given_up in outcome.err, f"{case}: {outcome}"
     expected.check_file(place, case)
     expected.check_resume(place, case)
 
