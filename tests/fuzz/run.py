@@ -117,10 +117,10 @@ def fuzz(target, inputs, options, work):
         if outcomes:
             read, refused = read + int(outcomes.group(1)), refused + int(outcomes.group(2))
         if ended.returncode != 0:
-            inputs = sorted(findings.glob(f"{target}-{seed}-*"))
+            kept = sorted(findings.glob(f"{target}-{seed}-*"))
             what = kind_of(report), place_of(report)
             if what not in found:
-                found[what] = inputs[0] if inputs else None
+                found[what] = kept[0] if kept else None
                 print(f"  {target}: {what[0]} in {what[1]}: {found[what]}", flush=True)
                 (findings / f"{target}-{seed}.report").write_text(report[-20000:])
         seed += 1
