@@ -5,6 +5,7 @@ usage: ranks.py FRAHM SOURCE_DIR MPIEXEC [few]
 few: a small map on few ranks, without kills and signals: for programs that sanitizers make slow.
 """
 
+import contextlib
 import fcntl
 import os
 import random
@@ -132,7 +133,8 @@ def check_killed_ranks(folder, expected):
         time.sleep(random.uniform(0.0, longest))
         ranks = ranks_of(process) if process.poll() is None else []
         if ranks:
-            os.kill(random.choice(ranks), signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):  # it may have ended meanwhile
+                os.kill(random.choice(ranks), signal.SIGKILL)
         code, _, _ = folder.end(process)
         if code == 0:  # it was done before: the next kill comes earlier
             os.remove(folder.output)
