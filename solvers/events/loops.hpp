@@ -17,11 +17,7 @@ namespace frahm::periodic {
 // The contacts at rest whose velocity is held: those that stick, and those that they hold.
 template <int N, int H>
 ContactMask at_rest(const Flow<N, H>& flow, const Workspace<N, H>& w) {
-  ContactMask result = 0;
-  for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
-    if (flow.equations().holds(j) && flow.rests(flow.mode(w.mode), j)) result |= bit(j);
-  }
-  return result;
+  return flow.at_rest(flow.mode(w.mode)) & flow.equations().holding;
 }
 
 // The modes in which each idle contact alone shares the forces again: its share is its stuck force there.
@@ -69,9 +65,7 @@ RestProblem rest_problem(const Flow<N, H>& flow, ContactMask contacts, const Wor
   constexpr double kWithoutBound = 1e9;
   const StepEquations<N, H>& eq = flow.equations();
   RestProblem rest;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(contacts, j)) rest.contacts.push_back(j);
-  }
+  rest.contacts = list_of(contacts);
   const auto m = static_cast<Eigen::Index>(rest.contacts.size());
   rest.W = eq.W(Eigen::all, rest.contacts);
   rest.G = eq.mobility(rest.contacts, rest.contacts);

@@ -16,10 +16,7 @@ namespace frahm::periodic {
 template <int N, int H>
 bool are_parted(const StepEquations<N, H>& eq, ContactMask stuck) {
   constexpr double kRounding = 1e-12;
-  std::vector<Eigen::Index> contacts;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(stuck & eq.holding, j)) contacts.push_back(j);
-  }
+  const std::vector<Eigen::Index> contacts = list_of(stuck & eq.holding);
   if (contacts.size() < 2) return false;
   const Eigen::MatrixXd velocities = eq.support_velocity(contacts, Eigen::all);
   const Eigen::MatrixXd loops = algebra::null_space(Eigen::MatrixXd(eq.W(Eigen::all, contacts)));

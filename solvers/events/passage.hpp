@@ -68,11 +68,11 @@ ContactMask arrived_between(const Flow<N, H>& flow, const Mode<N, H>& before, co
   return arrived;
 }
 
-// Contacts that stick throughout.
+// Contacts that rest throughout.
 template <int N, int H>
 ContactMask stuck_throughout(const Flow<N, H>& flow, const Passage<N, H>& passage) {
   ContactMask stuck = ~ContactMask{0};
-  for (const Segment<N, H>& segment : passage.segments) stuck &= flow.mode(segment.mode).stuck;
+  for (const Segment<N, H>& segment : passage.segments) stuck &= flow.at_rest(flow.mode(segment.mode));
   return stuck;
 }
 

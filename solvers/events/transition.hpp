@@ -110,10 +110,7 @@ template <int N, int H>
 Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
                        const FreeAccelerations<N, H>& free, Workspace<N, H>& w) {
   constexpr double kWithoutLimit = 1e9, kRounding = 16.0 * std::numeric_limits<double>::epsilon();
-  std::vector<Eigen::Index> contacts;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(at_rest, j)) contacts.push_back(j);
-  }
+  const std::vector<Eigen::Index> contacts = list_of(at_rest);
   const auto m = static_cast<Eigen::Index>(contacts.size());
   const auto contact = [&](Eigen::Index i) { return contacts[static_cast<std::size_t>(i)]; };
   Eigen::MatrixXd G(m, m);

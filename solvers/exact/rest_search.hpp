@@ -3,16 +3,15 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "solvers/algebra/no_value.hpp"
-#include "solvers/algebra/null_space.hpp"
-#include "solvers/flow/linear_form.hpp"
+#include "solvers/exact/rest_forces.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/rest_position.hpp"
 #include "solvers/orbits/shooting.hpp"
-#include "solvers/quantities/extremes.hpp"
 #include "solvers/quantities/integrals.hpp"
 #include "solvers/quantities/orbit_steps.hpp"
 
@@ -25,7 +24,7 @@ class RestSearch {
  public:
   // Both must outlive the search.
   RestSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow)
-      : forms_(assembly, flow), flow_(flow), shooting_(flow), steps_(flow) {}
+      : forces_(assembly, flow), flow_(flow), shooting_(flow), steps_(flow) {}
 
   // Moves the only orbit of a system to its rest position. Contacts that barely slide are held, if that gives
   // an orbit.
@@ -36,7 +35,7 @@ class RestSearch {
   enum class Shift { none, near, far };
   // Moves `orbit` to the rest position of least energy; if a force reaches its limit there, the orbit is
   // grazing. `orbit` is unchanged if no rest position keeps the forces within their limits.
-  Shift shift(Orbit<N, H>& orbit) { return shift(orbit, Forces::all); }
+  Shift shift(Orbit<N, H>& orbit);
 
   // Whether an orbit exists with these contacts held by forces within their limits; sets `orbit` to it.
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
@@ -44,10 +43,12 @@ class RestSearch {
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
 
  private:
-  // Which forces must stay within their limits: in a loop they may be shared otherwise than they are told.
-  enum class Forces { all, outside_loops };
-  Shift shift(Orbit<N, H>& orbit, Forces which);
-  bool rests_with_other_shares(ContactMask held);
+  std::vector<StuckForce> forces_across(const std::vector<OrbitCut>& cuts, const Orbit<N, H>& orbit) {
+    steps_.lay_out(orbit);
+    return forces_.across(cuts, orbit, steps_);
+  }
+  bool share_anew(Orbit<N, H>& orbit);
+  bool shares_break_limits(const Orbit<N, H>& orbit);
 
   bool hold_some(ContactMask barely, Orbit<N, H>& orbit);
   ContactMask let_go(ContactMask contacts, const Orbit<N, H>& orbit);
@@ -55,16 +56,11 @@ class RestSearch {
   ContactMask slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const;
   double time_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   void hold_all(Orbit<N, H>& orbit);
-  ContactMask at_rest(const Mode<N, H>& mode) const;
-  ContactMask in_loops(const Mode<N, H>& mode) const;
-  bool rests_in_loops(const Orbit<N, H>& orbit) const;
 
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
-  std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit,
-                                       Forces which = Forces::all);
   double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
 
-  Forms<N, H> forms_;
+  RestForces<N, H> forces_;
   Flow<N, H>& flow_;
   Shooting<N, H> shooting_;
   OrbitSteps<N, H> steps_;
@@ -145,21 +141,9 @@ bool RestSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
     shooting_.find(trial_, held);
     moved = trial_.is_found() ? shift(trial_) : Shift::none;
   }
-  if (moved == Shift::far || (moved == Shift::none && !rests_with_other_shares(held))) return false;
+  if (moved == Shift::far || moved == Shift::none) return false;
   std::swap(orbit, trial_);
   return true;
-}
-
-// Held contacts take any share of a loop's forces, be it beyond their limits, where they might carry less. So
-// the forces outside loops alone say where they rest, and the motion that is followed from there, with none
-// held, shows whether the loops can share what is left.
-template <int N, int H>
-bool RestSearch<N, H>::rests_with_other_shares(ContactMask held) {
-  if (!trial_.is_found() || !rests_in_loops(trial_)) return false;
-  if (shift(trial_, Forces::outside_loops) != Shift::near) return false;
-  return std::ranges::all_of(trial_.passage.segments, [&](const Segment<N, H>& segment) {
-    return (held & ~at_rest(flow_.mode(segment.mode))) == 0;
-  });
 }
 
 // Holds of these contacts as many as forces within their limits can, and then those that barely slide in the
@@ -193,7 +177,7 @@ ContactMask RestSearch<N, H>::varies_most(ContactMask held) {
   double most = 1.0;
   for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
     if (!contains(held, j)) continue;
-    const StuckForce force = stuck_forces(bit(j), trial_).front();
+    const StuckForce force = forces_across({forces_.alone(j)}, trial_).front();
     const double variation = (force.most - force.least) / (2.0 * force.limit);
     if (variation <= most) continue;
     result = bit(j);
@@ -222,79 +206,31 @@ void RestSearch<N, H>::hold_all(Orbit<N, H>& orbit) {
   trial_.z = flow_.brought_to_rest(trial_.z, trial_.section, held);
   shooting_.find(trial_, held);
   if (!trial_.is_found() || trial_.stuck_throughout == 0) return;
-  if (std::ranges::any_of(stuck_forces(trial_.stuck_throughout, trial_), &StuckForce::breaks_limit)) return;
+  const std::optional<std::vector<OrbitCut>> cuts = forces_.cuts_through(trial_.stuck_throughout, trial_);
+  if (!cuts || break_limits(forces_across(*cuts, trial_))) return;
+  if (are_shared(*cuts) && !share_anew(trial_)) return;
   std::swap(orbit, trial_);
 }
 
-// The forces of these contacts over the orbit, while they stick; what is not told of one counts as the first
-// of its forces that is.
+// Follows the motion from here with no contact held: contacts in loops share the forces of other rest
+// positions otherwise, up to other instants. False, with `orbit` unchanged, if contacts that rest throughout
+// then slide.
 template <int N, int H>
-std::vector<StuckForce> RestSearch<N, H>::stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit,
-                                                       Forces which) {
-  steps_.lay_out(orbit);
-  const auto is_told = [&](Eigen::Index j, const Mode<N, H>& mode) {
-    return contains(mode.stuck, j) && (which == Forces::all || !contains(in_loops(mode), j));
-  };
-  std::vector<StuckForce> forces;
-  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
-    if (!contains(contacts, j)) continue;
-    LinearForm<N, H> first_told = forms_.zero();
-    const auto steps = steps_.steps();
-    const auto told =
-        std::ranges::find_if(steps, [&](const auto& step) { return is_told(j, flow_.mode(step.mode)); });
-    if (told != steps.end())
-      first_told.u[0] = forms_.stuck_contact_force(j, flow_.mode(told->mode)).at(told->left).value;
-    const auto form = [&](const Mode<N, H>& mode) {
-      return is_told(j, mode) ? forms_.stuck_contact_force(j, mode) : first_told;
-    };
-    const Extremes force = find_extremes(steps_, flow_, orbit.section, form);
-    forces.push_back({force.least, force.most, flow_.equations().static_limit[j]});
-  }
-  return forces;
+bool RestSearch<N, H>::share_anew(Orbit<N, H>& orbit) {
+  Orbit<N, H> shared = orbit;
+  shooting_.find(shared);
+  if (!shared.is_found() || (orbit.stuck_throughout & ~shared.stuck_throughout) != 0) return false;
+  std::swap(orbit, shared);
+  return true;
 }
 
 template <int N, int H>
-ContactMask RestSearch<N, H>::at_rest(const Mode<N, H>& mode) const {
-  ContactMask result = 0;
-  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
-    if (flow_.rests(mode, j)) result |= bit(j);
-  }
-  return result;
-}
-
-// The contacts whose velocity is held at rest in this mode and that are part of a loop of such.
-template <int N, int H>
-ContactMask RestSearch<N, H>::in_loops(const Mode<N, H>& mode) const {
-  constexpr double kNoPart = 1e-9;  // of a loop of length 1: rounding
-  const StepEquations<N, H>& eq = flow_.equations();
-  if (!eq.has_loops) return 0;
-  const ContactMask contacts = at_rest(mode) & eq.holding;
-  std::vector<Eigen::Index> resting;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(contacts, j)) resting.push_back(j);
-  }
-  if (resting.size() < 2) return 0;
-  const Eigen::MatrixXd loops = algebra::null_space(eq.W(Eigen::all, resting));
-  ContactMask result = 0;
-  for (std::size_t i = 0; i < resting.size(); ++i) {
-    if (loops.row(static_cast<Eigen::Index>(i)).norm() > kNoPart) result |= bit(resting[i]);
-  }
-  return result;
-}
-
-// Whether contacts that rest at one time form a loop.
-template <int N, int H>
-bool RestSearch<N, H>::rests_in_loops(const Orbit<N, H>& orbit) const {
-  return std::ranges::any_of(orbit.passage.segments, [&](const Segment<N, H>& segment) {
-    return in_loops(flow_.mode(segment.mode)) != 0;
-  });
-}
-
-template <int N, int H>
-typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit, Forces which) {
+typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   if (orbit.stuck_throughout == 0) return Shift::none;  // a slider that was to be held slid from the start
   const StepEquations<N, H>& eq = flow_.equations();
-  const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit, which);
+  const std::optional<std::vector<OrbitCut>> cuts = forces_.cuts_through(orbit.stuck_throughout, orbit);
+  if (!cuts) return Shift::none;
+  const std::vector<StuckForce> forces = forces_across(*cuts, orbit);
   integrals_.integrate(steps_, flow_, orbit.half_period, {},
                        [](const auto&, auto& powers) { powers.clear(); });
   const double period = eq.period * eq.step;
@@ -303,23 +239,32 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit, For
   const RestShift found = least_energy_shift(rest, mean, forces);
   if (found.verdict == RestShift::Verdict::none) return Shift::none;
   const typename Sizes<N, H>::State by = rest.E * found.delta;
-  shift_orbit<N, H>(by, orbit);
-  // Where contacts rest in loops they share its forces, up to other instants than before. So the motion is
-  // followed once more from the shifted state; also where a force was at its limit before the shift. With a
-  // force at its limit now a contact may slip by rounding: then only if the shares told break a limit.
   const bool is_inside = found.verdict == RestShift::Verdict::inside;
-  const bool stood_at_limit = orbit.status == Status::grazing && is_inside;
-  const bool shares_anew = which == Forces::outside_loops ||
-                           (!by.isZero(0.0) && rests_in_loops(orbit) &&
-                            (is_inside || std::ranges::any_of(stuck_forces(flow_.equations().holding, orbit),
-                                                              &StuckForce::breaks_limit)));
-  if (stood_at_limit || shares_anew) {
-    shooting_.find(orbit);
-    if (!orbit.is_found()) return Shift::none;
+  if (are_shared(*cuts)) {
+    Orbit<N, H> shifted = orbit;
+    shift_orbit<N, H>(by, shifted);
+    // With a force at its limit a contact may slip by rounding: then the shares told must do.
+    if (!share_anew(shifted) && (is_inside || shares_break_limits(shifted))) return Shift::none;
+    std::swap(orbit, shifted);
+  } else {
+    shift_orbit<N, H>(by, orbit);
+    // The motion is followed once more where a force was at its limit before the shift.
+    if (orbit.status == Status::grazing && is_inside) {
+      shooting_.find(orbit);
+      if (!orbit.is_found()) return Shift::none;
+    }
   }
-  if (found.verdict == RestShift::Verdict::at_limit) orbit.status = Status::grazing;
+  if (!is_inside) orbit.status = Status::grazing;
   const double size = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
   return eq.energy_norm(by) > kFar * size ? Shift::far : Shift::near;
+}
+
+// Whether the shares that contacts are told to carry break the limits of some.
+template <int N, int H>
+bool RestSearch<N, H>::shares_break_limits(const Orbit<N, H>& orbit) {
+  std::vector<OrbitCut> each;
+  for (const Eigen::Index j : list_of(flow_.equations().holding)) each.push_back(forces_.alone(j));
+  return break_limits(forces_across(each, orbit));
 }
 
 }  // namespace frahm::periodic

@@ -119,6 +119,14 @@ class Flow {
     const bool is_idle = contains(configuration(mode).idle, contact) && equations_.limit[contact] > 0.0;
     return contains(mode.stuck, contact) || is_idle;
   }
+  // All contacts at rest.
+  ContactMask at_rest(const Mode<N, H>& mode) const {
+    ContactMask result = mode.stuck;
+    for (ContactMask idle = configuration(mode).idle & ~mode.stuck; idle != 0; idle &= idle - 1) {
+      if (equations_.limit[first(idle)] > 0.0) result |= bit(first(idle));
+    }
+    return result;
+  }
   // Maps velocities to those that keep these contacts stuck, orthogonally in the norm of M.
   typename S::Square keeping_stuck(ContactMask contacts) {
     return configurations_[configuration_index(contacts, 0)].projector(equations_);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "solvers/flow/polynomial.hpp"
 
@@ -20,6 +21,11 @@ inline Eigen::Index count(ContactMask mask) {
 }
 inline Eigen::Index first(ContactMask mask) {
   return __builtin_ctzll(mask);
+}
+inline std::vector<Eigen::Index> list_of(ContactMask mask) {
+  std::vector<Eigen::Index> contacts;
+  for (; mask != 0; mask &= mask - 1) contacts.push_back(first(mask));
+  return contacts;
 }
 
 // Sizes and types of a system of N masses under H harmonics. Known at compile time for the systems of which

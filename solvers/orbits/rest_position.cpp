@@ -1,30 +1,100 @@
 #include "solvers/orbits/rest_position.hpp"
 
+#include <cmath>
+
 #include "solvers/events/box_minimum.hpp"
+#include "solvers/events/tolerances.hpp"
+#include "solvers/flow/constraints.hpp"
 
 namespace frahm::periodic {
+namespace {
 
-RestShift least_energy_shift(const RestDirections& rest, const Eigen::VectorXd& z_mean,
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+// lower <= A delta <= upper, an entry each, of forces with these limits.
+struct Bounds {
+  MatrixXd A;
+  VectorXd lower, upper, limit;
+
+  double room(const VectorXd& delta) const {  // the least, of the limits; negative where one is broken
+    const VectorXd change = A * delta;
+    return ((change - lower).cwiseMin(upper - change).array() / limit.array()).minCoeff();
+  }
+};
+
+Bounds bounds_of(std::span<const StuckForce> forces, Index contacts) {
+  const auto m = static_cast<Index>(forces.size());
+  Bounds bounds{MatrixXd(m, contacts), VectorXd(m), VectorXd(m), VectorXd(m)};
+  for (Index i = 0; i < m; ++i) {
+    const StuckForce& force = forces[static_cast<std::size_t>(i)];
+    bounds.A.row(i) = force.shares.transpose();
+    bounds.lower[i] = -force.limit - force.least;
+    bounds.upper[i] = force.limit - force.most;
+    bounds.limit[i] = force.limit;
+  }
+  return bounds;
+}
+
+// A force that swings from limit to limit, to what counts as grazing, rests in the middle; false where one
+// swings further.
+bool close(Bounds& bounds) {
+  for (Index i = 0; i < bounds.limit.size(); ++i) {
+    double& lower = bounds.lower[i];
+    double& upper = bounds.upper[i];
+    if (lower > upper + kGrazing * bounds.limit[i]) return false;
+    if (lower > upper) lower = upper = 0.5 * (lower + upper);
+  }
+  return true;
+}
+
+// Forces that stay inside their limits by this much, where they can, let no contact slip by rounding.
+void keep_from_slipping(Bounds& bounds) {
+  constexpr double kInside = 10.0 * kTie;  // of the limit
+  for (Index i = 0; i < bounds.limit.size(); ++i) {
+    const double by = std::min(kInside * bounds.limit[i], 0.5 * (bounds.upper[i] - bounds.lower[i]));
+    bounds.lower[i] += by;
+    bounds.upper[i] -= by;
+  }
+}
+
+// The minimum where forces are shared, by its dual: the mu >= 0 that minimises
+//   1/2 mu^T B G^+ B^T mu - mu^T (B G^+ c - b),   B = (A, -A),  b = (upper, -lower),
+// leads to delta = G^+ (c - B^T mu) (Nocedal and Wright, Numerical Optimization, 2006, 12.9).
+VectorXd shared_minimum(const MatrixXd& G, const VectorXd& c, const Bounds& bounds) {
+  const Index m = bounds.limit.size();
+  const VectorXd size = bounds.limit.cwiseInverse();
+  MatrixXd B(2 * m, G.cols());
+  B << size.asDiagonal() * bounds.A, size.asDiagonal() * -bounds.A;
+  VectorXd b(2 * m);
+  b << size.cwiseProduct(bounds.upper), -size.cwiseProduct(bounds.lower);
+  const MatrixXd inverse = weighted_pseudo_inverse(G, VectorXd::Ones(G.rows()));
+  const VectorXd ones = VectorXd::Ones(2 * m);
+  const BoxMinimum dual =
+      box_minimum(B * inverse * B.transpose(), B * (inverse * c) - b, 0.0 * ones, HUGE_VAL * ones, ones);
+  return inverse * (c - B.transpose() * dual.lambda);
+}
+
+}  // namespace
+
+RestShift least_energy_shift(const RestDirections& rest, const VectorXd& z_mean,
                              std::span<const StuckForce> forces) {
-  const auto m = static_cast<Eigen::Index>(forces.size());
-  Eigen::VectorXd lower(m), upper(m), size(m);
-  for (Eigen::Index j = 0; j < m; ++j) {
-    const auto& [least, most, limit] = forces[static_cast<std::size_t>(j)];
-    lower[j] = -limit - least;
-    upper[j] = limit - most;
-    // A force that swings from limit to limit, to what counts as grazing, rests in the middle.
-    if (lower[j] > upper[j] + kGrazing * limit) return {};
-    if (lower[j] > upper[j]) lower[j] = upper[j] = 0.5 * (lower[j] + upper[j]);
-    size[j] = limit;
+  constexpr double kBroken = -1e-9;  // of a limit
+  Bounds bounds = bounds_of(forces, rest.E.cols());
+  if (!close(bounds)) return {};
+  const MatrixXd G = rest.L.transpose() * rest.E;
+  const VectorXd c = -(rest.L.transpose() * z_mean);
+  RestShift shift;
+  if (bounds.A.isIdentity(0.0)) {
+    const BoxMinimum minimum = box_minimum(G, c, bounds.lower, bounds.upper, bounds.limit);
+    if (!minimum.found) return {};
+    shift.delta = minimum.lambda;
+  } else {
+    keep_from_slipping(bounds);
+    shift.delta = shared_minimum(G, c, bounds);
+    if (!shift.delta.allFinite() || bounds.room(shift.delta) < kBroken) return {};
   }
-  const BoxMinimum minimum =
-      box_minimum(rest.L.transpose() * rest.E, -(rest.L.transpose() * z_mean), lower, upper, size);
-  if (!minimum.found) return {};
-  RestShift shift{minimum.lambda, RestShift::Verdict::inside};
-  for (Eigen::Index j = 0; j < m; ++j) {
-    const double room = std::min(shift.delta[j] - lower[j], upper[j] - shift.delta[j]);
-    if (room <= kGrazing * size[j]) shift.verdict = RestShift::Verdict::at_limit;
-  }
+  shift.verdict =
+      bounds.room(shift.delta) <= kGrazing ? RestShift::Verdict::at_limit : RestShift::Verdict::inside;
   return shift;
 }
 

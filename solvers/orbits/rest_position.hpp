@@ -9,11 +9,18 @@
 
 namespace frahm::periodic {
 
-// A force of a contact that sticks throughout, over the period, and its limit [N].
+// A force over the period that contacts at rest carry, alone or together across a cut (contact_cuts.hpp), and
+// its limit [N].
 struct StuckForce {
+  Eigen::VectorXd shares;  // of the contacts that stick throughout
   double least = 0.0, most = 0.0, limit = 0.0;
-  bool breaks_limit() const { return std::max(most, -least) > limit * (1.0 + 1e-9); }
 };
+inline bool break_limits(std::span<const StuckForce> forces) {
+  constexpr double kBeyond = 1.0 + 1e-9;
+  return std::ranges::any_of(forces, [](const StuckForce& force) {
+    return std::max(force.most, -force.least) > force.limit * kBeyond;
+  });
+}
 
 // The shift of the mean forces of contacts that stick throughout [N].
 struct RestShift {
@@ -27,7 +34,8 @@ struct RestShift {
 };
 
 // Contacts that never slide may rest anywhere in an interval (rest_directions.hpp). By convention the mean
-// position of least energy is taken: with the mean state z_mean and |lambda_j(t) + delta_j| <= F_j
+// position of least energy is taken: with the mean state z_mean, and for all forces lambda with shares a
+// |lambda(t) + a^T delta| <= F,
 //   minimise ||z_mean + E delta||_E^2,  which is  1/2 delta^T G delta - c^T delta,
 //   G = L^T E,  c = -L^T z_mean.
 RestShift least_energy_shift(const RestDirections& rest, const Eigen::VectorXd& z_mean,

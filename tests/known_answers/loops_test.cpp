@@ -77,6 +77,35 @@ TEST_CASE("The peak of a share has the derivative of its closed form") {
   }
 }
 
+// Both masses stick in a loop under a force of mean F_0 and amplitude F_1. With x the place of the driven
+// mass, d its distance from the other, springs k and k_l, and limits F of the three contacts,
+//   |F_0 + F_1 cos(w t) - k x - k_l d| <= F_lower + F_joint
+// is all that bounds them; the least energy is where d = x = (F_0 + F_1 - F_lower - F_joint) / (k + k_l).
+TEST_CASE("Masses held in a loop under a constant load rest where the springs are strained least") {
+  constexpr double mean = 1.0, swing = 1.9, lower = 1.6, joint = 0.52, upper = 1.5, k = 1.0, link = 7.8;
+  Network network = clamp();
+  network.elements.erase(network.elements.begin() + 2);
+  network.excitations.push_back({ExcitationKind::force, 0, 0});
+  Responses responses(network);
+  for (const double omega : {0.056, 0.8}) {
+    for (double phase = 0.0; phase < 6.3; phase += 0.27) {
+      INFO("omega " << omega << " phase " << phase);
+      responses.solve({.omega = omega,
+                       .mass = {1.0, 1.0},
+                       .element = {k, link, lower, joint, upper},
+                       .excitation = {{swing, phase}, {mean, 0.0}}});
+      CHECK(responses["status"] == 2.0);
+      constexpr double kInside = 1e-10;  // a rest position at a limit is told just inside it
+      CHECK_THAT(responses["driven_mean"], WithinAbs((mean + swing - lower - joint) / (k + link), kInside));
+      CHECK_THAT(responses["beside_mean"], WithinAbs(0.0, kInside));
+      CHECK(responses["driven_amplitude"] == 0.0);
+      CHECK(responses["lower_force_peak"] <= lower + kRounding);
+      CHECK(responses["joint_force_peak"] <= joint + kRounding);
+      CHECK(responses["upper_force_peak"] <= upper + kRounding);
+    }
+  }
+}
+
 TEST_CASE("A clamp lets go where the limits of no distribution hold it") {
   Responses responses(clamp());
   for (const double force : {kLower + kJoint - 1e-6, kLower + kJoint + 1e-2}) {
