@@ -22,6 +22,12 @@ struct OrbitCut {
   std::vector<ContactMask> resting;
 };
 
+// The cuts that tell where contacts may rest.
+struct OrbitCuts {
+  std::vector<OrbitCut> all;
+  bool in_loops = false;  // contacts share forces: how, only the motion followed from there shows
+};
+
 // The forces that contacts at rest carry over an orbit, alone or together across a cut.
 template <int N, int H>
 class RestForces {
@@ -32,16 +38,18 @@ class RestForces {
 
   // A contact by itself: in a loop its force is a share, which motion says nothing of.
   OrbitCut alone(Eigen::Index contact) const;
+  std::vector<OrbitCut> each_alone(ContactMask contacts) const;
   // The cuts through contacts that rest in each mode, if they tell the forces of some of these contacts,
-  // which rest throughout. None if there are too many.
-  std::optional<std::vector<OrbitCut>> cuts_through(ContactMask contacts, const Orbit<N, H>& orbit) const;
+  // which rest throughout. If a loop has too many, these contacts each by itself, with their shares as they
+  // are: their places of rest then lie within those that are possible.
+  OrbitCuts cuts_through(ContactMask contacts, const Orbit<N, H>& orbit) const;
   // The forces across these cuts over the orbit, which is laid out in `steps`, while the motion tells them;
   // at other times one counts as the first that is told.
   std::vector<StuckForce> across(const std::vector<OrbitCut>& cuts, const Orbit<N, H>& orbit,
                                  OrbitSteps<N, H>& steps) const;
 
  private:
-  bool add_cuts(ContactMask resting, ContactMask contacts, std::vector<OrbitCut>& cuts) const;
+  bool add_cuts(ContactMask resting, ContactMask contacts, OrbitCuts& cuts) const;
   bool is_told(const OrbitCut& cut, const Mode<N, H>& mode) const;
   LinearForm<N, H> form(const OrbitCut& cut, const Mode<N, H>& mode) const;
 
@@ -49,31 +57,30 @@ class RestForces {
   const Flow<N, H>& flow_;
 };
 
-// Whether contacts share a force.
-inline bool are_shared(const std::vector<OrbitCut>& cuts) {
-  return std::ranges::any_of(cuts,
-                             [](const OrbitCut& cut) { return (cut.shares.array() != 0.0).count() > 1; });
-}
-
 template <int N, int H>
 OrbitCut RestForces<N, H>::alone(Eigen::Index contact) const {
   return {Eigen::VectorXd::Unit(flow_.equations().contacts(), contact), contact, {}};
 }
 
 template <int N, int H>
-std::optional<std::vector<OrbitCut>> RestForces<N, H>::cuts_through(ContactMask contacts,
-                                                                    const Orbit<N, H>& orbit) const {
+std::vector<OrbitCut> RestForces<N, H>::each_alone(ContactMask contacts) const {
+  std::vector<OrbitCut> cuts;
+  for (const Eigen::Index j : list_of(contacts)) cuts.push_back(alone(j));
+  return cuts;
+}
+
+template <int N, int H>
+OrbitCuts RestForces<N, H>::cuts_through(ContactMask contacts, const Orbit<N, H>& orbit) const {
   const StepEquations<N, H>& eq = flow_.equations();
   const ContactMask by_themselves = eq.has_loops ? contacts & ~eq.holding : contacts;
-  std::vector<OrbitCut> cuts;
-  for (const Eigen::Index j : list_of(by_themselves)) cuts.push_back(alone(j));
+  OrbitCuts cuts{.all = each_alone(by_themselves)};
   if (by_themselves == contacts) return cuts;
   std::vector<ContactMask> seen;
   for (const Segment<N, H>& segment : orbit.passage.segments) {
     const ContactMask resting = flow_.at_rest(flow_.mode(segment.mode)) & eq.holding;
     if (std::ranges::find(seen, resting) != seen.end()) continue;
     seen.push_back(resting);
-    if (!add_cuts(resting, contacts, cuts)) return std::nullopt;
+    if (!add_cuts(resting, contacts, cuts)) return {.all = each_alone(contacts), .in_loops = true};
   }
   return cuts;
 }
@@ -81,8 +88,7 @@ std::optional<std::vector<OrbitCut>> RestForces<N, H>::cuts_through(ContactMask 
 // Adds the cuts through the contacts that rest at one time if they pass through some of `contacts`. False if
 // there are too many.
 template <int N, int H>
-bool RestForces<N, H>::add_cuts(ContactMask resting, ContactMask contacts,
-                                std::vector<OrbitCut>& cuts) const {
+bool RestForces<N, H>::add_cuts(ContactMask resting, ContactMask contacts, OrbitCuts& cuts) const {
   constexpr double kSame = 1e-9;
   const StepEquations<N, H>& eq = flow_.equations();
   const std::vector<Eigen::Index> list = list_of(resting);
@@ -92,11 +98,12 @@ bool RestForces<N, H>::add_cuts(ContactMask resting, ContactMask contacts,
     Eigen::VectorXd shares = Eigen::VectorXd::Zero(eq.contacts());
     shares(list) = of_list;
     if (shares(list_of(contacts)).isZero(0.0)) continue;
-    const auto known = std::ranges::find_if(cuts, [&](const OrbitCut& cut) {
+    cuts.in_loops = cuts.in_loops || (shares.array() != 0.0).count() > 1;
+    const auto known = std::ranges::find_if(cuts.all, [&](const OrbitCut& cut) {
       return cut.contact < 0 && std::min((cut.shares - shares).norm(), (cut.shares + shares).norm()) < kSame;
     });
-    if (known == cuts.end())
-      cuts.push_back({std::move(shares), -1, {resting}});
+    if (known == cuts.all.end())
+      cuts.all.push_back({std::move(shares), -1, {resting}});
     else
       known->resting.push_back(resting);
   }

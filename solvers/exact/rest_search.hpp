@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -206,9 +205,9 @@ void RestSearch<N, H>::hold_all(Orbit<N, H>& orbit) {
   trial_.z = flow_.brought_to_rest(trial_.z, trial_.section, held);
   shooting_.find(trial_, held);
   if (!trial_.is_found() || trial_.stuck_throughout == 0) return;
-  const std::optional<std::vector<OrbitCut>> cuts = forces_.cuts_through(trial_.stuck_throughout, trial_);
-  if (!cuts || break_limits(forces_across(*cuts, trial_))) return;
-  if (are_shared(*cuts) && !share_anew(trial_)) return;
+  const OrbitCuts cuts = forces_.cuts_through(trial_.stuck_throughout, trial_);
+  if (break_limits(forces_across(cuts.all, trial_))) return;
+  if (cuts.in_loops && !share_anew(trial_)) return;
   std::swap(orbit, trial_);
 }
 
@@ -228,9 +227,8 @@ template <int N, int H>
 typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   if (orbit.stuck_throughout == 0) return Shift::none;  // a slider that was to be held slid from the start
   const StepEquations<N, H>& eq = flow_.equations();
-  const std::optional<std::vector<OrbitCut>> cuts = forces_.cuts_through(orbit.stuck_throughout, orbit);
-  if (!cuts) return Shift::none;
-  const std::vector<StuckForce> forces = forces_across(*cuts, orbit);
+  const OrbitCuts cuts = forces_.cuts_through(orbit.stuck_throughout, orbit);
+  const std::vector<StuckForce> forces = forces_across(cuts.all, orbit);
   integrals_.integrate(steps_, flow_, orbit.half_period, {},
                        [](const auto&, auto& powers) { powers.clear(); });
   const double period = eq.period * eq.step;
@@ -240,7 +238,7 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   if (found.verdict == RestShift::Verdict::none) return Shift::none;
   const typename Sizes<N, H>::State by = rest.E * found.delta;
   const bool is_inside = found.verdict == RestShift::Verdict::inside;
-  if (are_shared(*cuts)) {
+  if (cuts.in_loops) {
     Orbit<N, H> shifted = orbit;
     shift_orbit<N, H>(by, shifted);
     // With a force at its limit a contact may slip by rounding: then the shares told must do.
@@ -262,9 +260,7 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
 // Whether the shares that contacts are told to carry break the limits of some.
 template <int N, int H>
 bool RestSearch<N, H>::shares_break_limits(const Orbit<N, H>& orbit) {
-  std::vector<OrbitCut> each;
-  for (const Eigen::Index j : list_of(flow_.equations().holding)) each.push_back(forces_.alone(j));
-  return break_limits(forces_across(each, orbit));
+  return break_limits(forces_across(forces_.each_alone(flow_.equations().holding), orbit));
 }
 
 }  // namespace frahm::periodic
