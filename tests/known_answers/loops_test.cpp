@@ -1,7 +1,11 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
+#include "solvers/events/box_minimum.hpp"
 #include "tests/known_answers/responses.hpp"
 
 // Contacts that form a loop: two masses held to the ground and to each other. What each carries is a
@@ -104,6 +108,81 @@ TEST_CASE("Masses held in a loop under a constant load rest where the springs ar
       CHECK(responses["upper_force_peak"] <= upper + kRounding);
     }
   }
+}
+
+// How far a load is from all that contacts with directions W carry within their limits.
+double out_of_reach(const Eigen::MatrixXd& W, const Eigen::VectorXd& load, const Eigen::VectorXd& limit) {
+  const BoxMinimum nearest = box_minimum(W.transpose() * W, W.transpose() * load, -limit, limit, limit);
+  REQUIRE(nearest.found);
+  return (W * nearest.lambda - load).norm();
+}
+
+// The force swings between two loads of the first mass. A place x is possible where the contacts carry both
+// less K x; of all such places, a convex set, x* has least energy if (K x*)^T (x - x*) >= 0.
+TEST_CASE("No place where contacts in loops hold three masses has less energy than the one that is told") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.2, 1.0);
+  constexpr std::size_t kMasses = 3;
+  int held = 0, compared = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    INFO("trial " << trial);
+    const double mean = 3.0 * uniform(random), swing = 1.5 * uniform(random);
+    Network network;
+    network.excitations = {{ExcitationKind::force, 0, 1}, {ExcitationKind::force, 0, 0}};
+    NetworkValues values;
+    values.omega = 0.3;
+    values.excitation = {{swing, 6.0 * uniform(random)}, {mean, 0.0}};
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3, 3), W = Eigen::MatrixXd::Zero(3, 6);
+    Eigen::VectorXd limit(6);
+    const auto add = [&](ElementType type, Node from, Node to, double value) {
+      network.elements.push_back({"e" + std::to_string(network.elements.size()), type, from, to});
+      values.element.push_back(value);
+    };
+    Eigen::Index contact = 0;
+    const auto join = [&](Node from, Node to) {
+      Eigen::Vector3d w = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(to.index));
+      if (from.kind == NodeKind::mass) w[static_cast<Eigen::Index>(from.index)] = -1.0;
+      const double stiffness = uniform(random);
+      add(ElementType::spring, from, to, stiffness);
+      K += stiffness * w * w.transpose();
+      limit[contact] = uniform(random);
+      add(ElementType::coulomb, from, to, limit[contact]);
+      W.col(contact++) = w;
+    };
+    for (std::size_t i = 0; i < kMasses; ++i) {
+      network.masses.push_back("m" + std::to_string(i));
+      values.mass.push_back(1.0);
+      join(kGround, {NodeKind::mass, i});
+      for (std::size_t before = 0; before < i; ++before) join({NodeKind::mass, before}, {NodeKind::mass, i});
+    }
+    Responses responses(network);
+    responses.solve(values);
+    Eigen::Vector3d place;
+    double amplitude = 0.0;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const std::string name = "m" + std::to_string(i);
+      place[i] = responses[name + "_mean"];
+      amplitude = std::max(amplitude, responses[name + "_amplitude"]);
+    }
+    if (amplitude > 0.0) continue;
+    ++held;
+    constexpr double kInside = 1e-9;  // of forces and energies of order 1
+    const Eigen::Vector3d highest((mean + swing) * Eigen::Vector3d::UnitX()),
+        lowest((mean - swing) * Eigen::Vector3d::UnitX());
+    CHECK(out_of_reach(W, highest - K * place, limit) < kInside);
+    CHECK(out_of_reach(W, lowest - K * place, limit) < kInside);
+    for (int other = 0; other < 200; ++other) {
+      Eigen::VectorXd shares =
+          Eigen::VectorXd::NullaryExpr(6, [&] { return std::clamp(5.0 * uniform(random) - 3.0, -1.0, 1.0); });
+      shares = shares.cwiseProduct(limit).eval();
+      const Eigen::Vector3d elsewhere = K.llt().solve(highest - W * shares);
+      if (out_of_reach(W, lowest - K * elsewhere, limit) > kInside) continue;
+      ++compared;
+      CHECK((K * place).dot(elsewhere - place) >= -kInside);
+    }
+  }
+  CHECK(held > 20);
+  CHECK(compared > 500);
 }
 
 // A chain whose masses are held to the ground and to each other has 78 cuts in all, too many ways to look for
