@@ -49,7 +49,7 @@ void check_form(const hdf5::Dataset& dataset, std::size_t needed) {
 }
 
 // A file that anybody may have made is first read by a child.
-hdf5::File open_checked(const std::filesystem::path& path) {
+hdf5::File open_foreign(const std::filesystem::path& path) {
   check_apart(path, opening_check(path));
   return hdf5::File::open(path);
 }
@@ -88,7 +88,7 @@ void check_dataset(const std::filesystem::path& path, const std::string& dataset
   found.text("units");
 }
 
-DataReader::DataReader(const std::filesystem::path& path) : path_(path), file_(open_checked(path)) {}
+DataReader::DataReader(const std::filesystem::path& path) : path_(path), file_(open_foreign(path)) {}
 
 DataColumn DataReader::read(const std::string& dataset) const {
   check_apart(path_, dataset_check(path_, dataset, 1));

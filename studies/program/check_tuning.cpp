@@ -29,7 +29,7 @@ void print_design_range(const Study& study, const DesignChoice& design, std::ost
   fmt::print(out, "{}\n", design.rule ? ", beside a rule" : "");
 }
 
-std::string time_text(double seconds) {
+std::string rough_time(double seconds) {
   return seconds < 9.95 ? fmt::format("{:.2g} s", seconds) : engine::readable_time(seconds);
 }
 
@@ -40,8 +40,8 @@ void print_prediction(const TuningSample& sample, const MemoryUse& memory, std::
   const auto team = static_cast<std::uint64_t>(threads);
   const std::uint64_t whole_turns = (starts + team - 1) / team;
   const auto turns = static_cast<double>(whole_turns);
-  const std::string least = time_text(turns * sample.least_seconds + sample.assessment_seconds);
-  const std::string most = time_text(turns * sample.most_seconds + sample.assessment_seconds);
+  const std::string least = rough_time(turns * sample.least_seconds + sample.assessment_seconds);
+  const std::string most = rough_time(turns * sample.most_seconds + sample.assessment_seconds);
   fmt::print(out, "{:<22}about {}{}{} on {} thread{} of this machine", "time", least,
              least == most ? "" : " to ", least == most ? "" : most, threads, threads == 1 ? "" : "s");
   if (sample.is_whole) {

@@ -263,7 +263,7 @@ std::vector<std::string> keys_called(const std::string& word) {
   return found;
 }
 
-std::vector<std::string> all_words() {
+std::vector<std::string> words_of_studies() {
   std::vector<std::string> words;
   for (const StudyKey& each : study_keys()) {
     words.emplace_back(each.key);
@@ -302,7 +302,7 @@ int explain_command(const std::string& word, std::ostream& out) {
                      "explain: \"{}\" is no key, type, choice, quantity, variable of results, unit, status, "
                      "regime, outcome or "
                      "exit code{}",
-                     word, suggestion(word, all_words()));
+                     word, suggestion(word, words_of_studies()));
   for (const std::string& text : found) out << text << '\n';
   return exit_code::done;
 }

@@ -12,14 +12,14 @@ namespace {
 constexpr double enough = 0.9;                     // efficiency worth asking for
 constexpr std::int64_t most_threads = 10'000'000;  // in all: 80 MB
 
-std::string time_text(double seconds) {
+std::string wall_time(double seconds) {
   return seconds < 60.0 ? fmt::format("{:.3g} s", seconds) : engine::readable_time(seconds);
 }
 
 void print_row(const RankCosts& costs, int ranks, int threads, std::ostream& out) {
   const RankPrediction p = simulate_ranks(costs, ranks, threads);
   fmt::print(out, "{:>7}{:>9}{:>16}{:>10.1f} %{:>8.1f} %{:>9.1f} %{:>9.1f} %{:>9.1f} %{:>9.1f} %\n", ranks,
-             static_cast<std::int64_t>(ranks) * threads, time_text(p.wall), 100.0 * p.efficiency,
+             static_cast<std::int64_t>(ranks) * threads, wall_time(p.wall), 100.0 * p.efficiency,
              100.0 * p.efficiency / (p.efficiency + p.waiting + p.imbalance), 100.0 * p.start,
              100.0 * p.waiting, 100.0 * p.imbalance, 100.0 * p.assembly);
 }

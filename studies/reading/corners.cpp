@@ -3,13 +3,13 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_dimensions = 10;  // 2^10 corners are enough
+constexpr std::size_t most_with_corners = 10;  // 2^10 corners are enough
 
 }  // namespace
 
 std::vector<std::vector<bool>> corners(std::size_t dimensions) {
   std::vector<std::vector<bool>> all;
-  if (dimensions > most_dimensions) {
+  if (dimensions > most_with_corners) {
     for (const bool base : {false, true}) {
       all.emplace_back(dimensions, base);
       for (std::size_t i = 0; i < dimensions; ++i) {

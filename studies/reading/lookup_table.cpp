@@ -12,7 +12,7 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t longest_shown = 40;  // characters of a row in a message
+constexpr std::size_t longest_row = 40;  // characters of a row in a message
 
 struct Point {
   double x = 0.0, y = 0.0;
@@ -28,7 +28,7 @@ std::optional<Point> as_point(const CsvRow& row) {
 std::string shown(const CsvRow& row) {
   std::string text = row.cells.front();
   for (std::size_t i = 1; i < row.cells.size(); ++i) text += row.separator + row.cells[i];
-  return text.substr(0, longest_shown);
+  return text.substr(0, longest_row);
 }
 
 }  // namespace

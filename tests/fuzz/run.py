@@ -3,7 +3,8 @@
 
 usage: run.py [--build FOLDER] [--inputs NUMBER] [--seed NUMBER] [TARGET[:NUMBER] ...]
 
-One fuzzer runs on each core. TARGET:NUMBER has its own number of inputs.
+One fuzzer runs on each core. TARGET:NUMBER has its own number of inputs. A target that stands there again runs again, with
+other seeds: one that is slow can share the cores with itself.
 
 A finding - a signal, an exception that is no message, a sanitizer's report, more than 20 s or 1 GB - is kept in
 FOLDER/findings, named, and makes the exit code 1; the fuzzer goes on with another seed. What helps the next time is
@@ -94,16 +95,16 @@ def environment():
     return quiet
 
 
-def fuzz(target, inputs, options, work):
+def fuzz(target, inputs, seed, build, seeds, dictionary):
     """Runs one target; returns (inputs, read, refused, {(kind, place): path of an input})."""
-    seeds, dictionary = seeds_for(target, work)
+    work = build / "fuzz"
     corpus, findings = work / "corpus" / target, work / "findings"
     corpus.mkdir(parents=True, exist_ok=True)
     findings.mkdir(parents=True, exist_ok=True)
-    done, read, refused, ends, found, seed = 0, 0, 0, 0, {}, options.seed
+    done, read, refused, ends, found = 0, 0, 0, 0, {}
     while done < inputs and ends < MOST_ENDS:
         prefix = f"{findings}/{target}-{seed}-"
-        command = [f"{options.build}/bin/fuzz_{target}", f"-runs={inputs - done}", f"-seed={seed}",
+        command = [f"{build}/bin/fuzz_{target}", f"-runs={inputs - done}", f"-seed={seed}",
                    f"-rss_limit_mb={MEGABYTES}", f"-timeout={SECONDS}", f"-max_len={TARGETS[target][0]}",
                    f"-dict={dictionary}", "-print_final_stats=1", "-verbosity=1", f"-artifact_prefix={prefix}",
                    str(corpus), str(seeds)]
@@ -136,15 +137,20 @@ def main():
     options = parser.parse_args()
     row_format = "{:12} {:9} inputs {:9} read {:9} refused {:4} findings {:6.0f} s"
 
-    def row_of(asked):
-        target, _, number = asked.partition(":")
+    targets = [asked.partition(":")[::2] for asked in options.targets]
+    seeds = {target: seeds_for(target, options.build / "fuzz") for target, _ in targets}
+    many = 1000  # seeds: more than one run takes
+
+    def row_of(place):
+        target, number = targets[place]
+        seed = options.seed + many * sum(before == target for before, _ in targets[:place])
         start = time.monotonic()
-        done, read, refused, found = fuzz(target, int(number or options.inputs), options, options.build / "fuzz")
+        done, read, refused, found = fuzz(target, int(number or options.inputs), seed, options.build, *seeds[target])
         return target, done, read, refused, len(found), time.monotonic() - start
 
     rows = []
     with ThreadPoolExecutor(os.cpu_count()) as cores:
-        for row in cores.map(row_of, options.targets or TARGETS):
+        for row in cores.map(row_of, range(len(targets))):
             rows.append(row)
             print(row_format.format(*row), flush=True)
     total = [sum(row[i] for row in rows) for i in range(1, 6)]
