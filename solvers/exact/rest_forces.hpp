@@ -36,8 +36,7 @@ class RestForces {
   RestForces(const mechanics::Assembly& assembly, const Flow<N, H>& flow)
       : forms_(assembly, flow), flow_(flow) {}
 
-  // A contact by itself: in a loop its force is a share, which motion says nothing of.
-  OrbitCut alone(Eigen::Index contact) const;
+  // These contacts, each by itself: in a loop its force is a share, which motion says nothing of.
   std::vector<OrbitCut> each_alone(ContactMask contacts) const;
   // The cuts through contacts that rest in each mode, if they tell the forces of some of these contacts,
   // which rest throughout. If a loop has too many, these contacts each by itself, with their shares as they
@@ -58,14 +57,10 @@ class RestForces {
 };
 
 template <int N, int H>
-OrbitCut RestForces<N, H>::alone(Eigen::Index contact) const {
-  return {Eigen::VectorXd::Unit(flow_.equations().contacts(), contact), contact, {}};
-}
-
-template <int N, int H>
 std::vector<OrbitCut> RestForces<N, H>::each_alone(ContactMask contacts) const {
   std::vector<OrbitCut> cuts;
-  for (const Eigen::Index j : list_of(contacts)) cuts.push_back(alone(j));
+  for (const Eigen::Index j : list_of(contacts))
+    cuts.push_back({Eigen::VectorXd::Unit(flow_.equations().contacts(), j), j, {}});
   return cuts;
 }
 

@@ -172,14 +172,14 @@ ContactMask RestSearch<N, H>::let_go(ContactMask contacts, const Orbit<N, H>& or
 // are apart: nothing that shifts the forces holds it. In a loop the others may, while it carries its limit.
 template <int N, int H>
 ContactMask RestSearch<N, H>::varies_most(ContactMask held) {
+  const std::vector<OrbitCut> each = forces_.each_alone(held);
+  const std::vector<StuckForce> forces = forces_across(each, trial_);
   ContactMask result = 0;
   double most = 1.0;
-  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
-    if (!contains(held, j)) continue;
-    const StuckForce force = forces_across({forces_.alone(j)}, trial_).front();
-    const double variation = (force.most - force.least) / (2.0 * force.limit);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const double variation = (forces[i].most - forces[i].least) / (2.0 * forces[i].limit);
     if (variation <= most) continue;
-    result = bit(j);
+    result = bit(each[i].contact);
     most = variation;
   }
   return result;
