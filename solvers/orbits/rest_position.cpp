@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "solvers/events/box_minimum.hpp"
-#include "solvers/events/tolerances.hpp"
 #include "solvers/flow/constraints.hpp"
 
 namespace frahm::periodic {
@@ -49,7 +48,7 @@ bool close(Bounds& bounds) {
 
 // Forces that stay inside their limits by this much, where they can, let no contact slip by rounding.
 void keep_from_slipping(Bounds& bounds) {
-  constexpr double kInside = 10.0 * kTie;  // of the limit
+  constexpr double kInside = 0.5 * kGrazing;  // of the limit
   for (Index i = 0; i < bounds.limit.size(); ++i) {
     const double by = std::min(kInside * bounds.limit[i], 0.5 * (bounds.upper[i] - bounds.lower[i]));
     bounds.lower[i] += by;
@@ -62,12 +61,13 @@ void keep_from_slipping(Bounds& bounds) {
 // leads to delta = G^+ (c - B^T mu) (Nocedal and Wright, Numerical Optimization, 2006, 12.9).
 VectorXd shared_minimum(const MatrixXd& G, const VectorXd& c, const Bounds& bounds) {
   const Index m = bounds.limit.size();
-  const VectorXd size = bounds.limit.cwiseInverse();
+  const MatrixXd inverse = weighted_pseudo_inverse(G, VectorXd::Ones(G.rows()));
+  // Each row in the size of its own energy: limits may be orders of magnitude apart.
+  const VectorXd size = (bounds.A * inverse * bounds.A.transpose()).diagonal().cwiseSqrt().cwiseInverse();
   MatrixXd B(2 * m, G.cols());
   B << size.asDiagonal() * bounds.A, size.asDiagonal() * -bounds.A;
   VectorXd b(2 * m);
   b << size.cwiseProduct(bounds.upper), -size.cwiseProduct(bounds.lower);
-  const MatrixXd inverse = weighted_pseudo_inverse(G, VectorXd::Ones(G.rows()));
   const VectorXd ones = VectorXd::Ones(2 * m);
   const BoxMinimum dual =
       box_minimum(B * inverse * B.transpose(), B * (inverse * c) - b, 0.0 * ones, HUGE_VAL * ones, ones);

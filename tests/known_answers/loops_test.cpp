@@ -99,7 +99,7 @@ TEST_CASE("Masses held in a loop under a constant load rest where the springs ar
                        .element = {k, link, lower, joint, upper},
                        .excitation = {{swing, phase}, {mean, 0.0}}});
       CHECK(responses["status"] == 2.0);
-      constexpr double kInside = 1e-10;  // a rest position at a limit is told just inside it
+      constexpr double kInside = 2e-10;  // a rest position at a limit is told inside it by 5e-10 of it
       CHECK_THAT(responses["driven_mean"], WithinAbs((mean + swing - lower - joint) / (k + link), kInside));
       CHECK_THAT(responses["beside_mean"], WithinAbs(0.0, kInside));
       CHECK(responses["driven_amplitude"] == 0.0);
@@ -166,7 +166,9 @@ TEST_CASE("No place where contacts in loops hold three masses has less energy th
     }
     if (amplitude > 0.0) continue;
     ++held;
-    constexpr double kInside = 1e-9;  // of forces and energies of order 1
+    constexpr double kInside = 1e-9;  // of forces of order 1
+    constexpr double kFromLimits =
+        1e-8;  // places at a limit are told inside it by 5e-10 of it, limits of up to 6
     const Eigen::Vector3d highest((mean + swing) * Eigen::Vector3d::UnitX()),
         lowest((mean - swing) * Eigen::Vector3d::UnitX());
     CHECK(out_of_reach(W, highest - K * place, limit) < kInside);
@@ -178,7 +180,7 @@ TEST_CASE("No place where contacts in loops hold three masses has less energy th
       const Eigen::Vector3d elsewhere = K.llt().solve(highest - W * shares);
       if (out_of_reach(W, lowest - K * elsewhere, limit) > kInside) continue;
       ++compared;
-      CHECK((K * place).dot(elsewhere - place) >= -kInside);
+      CHECK((K * place).dot(elsewhere - place) >= -kFromLimits);
     }
   }
   CHECK(held > 20);
