@@ -17,6 +17,7 @@ constexpr double kOtherAgreement = 1e-7;  // of the largest velocity, accelerati
 constexpr double kOfForcing = 1e-10;      // of what the excitation would do at rest: rounding
 constexpr double kShareAgreement = 1e-6;  // of shares of a period and of energy
 constexpr double kBalance = 1e-9, kResidual = 1e-12, kStable = 1.0 + 1e-9, kLimit = 1.0 + 1e-9;
+constexpr double kForceRounding = 1e-14;  // of the largest force: limits may be orders of magnitude below it
 
 bool is_energy(Measure measure) {
   return measure == Measure::energy || measure == Measure::energy_input;
@@ -197,11 +198,13 @@ void at_most(const std::string& invariant, const std::string& figure, double fou
 
 void check_contacts(const Case& original, const Answer& base, std::vector<Violation>& violations) {
   Worst stuck({"stuck throughout without stops", "", 0, 0, 0, standing_of(base, base)});
+  const double rounding = kForceRounding * largest_in_unit(base, "N");
   for (std::size_t e = 0; e < original.network.elements.size(); ++e) {
     if (original.network.elements[e].type != mechanics::ElementType::coulomb) continue;
     const std::string& name = original.network.elements[e].name;
+    const double limit = original.values.element[e];
     at_most("friction within its limit", name + "_force_peak", base[name + "_force_peak"],
-            original.values.element[e] * kLimit, base, violations);
+            std::max(limit * kLimit, limit + rounding), base, violations);
     if (base[name + "_regime"] != 5.0) continue;
     stuck.check(name + "_stops", base[name + "_stops"], 0.0, 0.0);
     stuck.check(name + "_stuck_fraction", base[name + "_stuck_fraction"], 1.0, 1e-12);
