@@ -188,15 +188,14 @@ bool SizedSolver<N, H>::is_to_be_weighed() const {
 // Work in = energy lost holds for every periodic orbit. One that breaks it is searched again, or refused.
 template <int N, int H>
 void SizedSolver<N, H>::weigh() {
-  constexpr double kBalanced = 1e-9;
-  double balance = observables_.energy_balance(orbit_, told());
-  for (int way = 0; system_.monotone && balance > kBalanced && way < OrbitSearch<N, H>::kOtherWays; ++way) {
+  bool is_balanced = observables_.is_balanced(orbit_, told());
+  for (int way = 0; system_.monotone && !is_balanced && way < OrbitSearch<N, H>::kOtherWays; ++way) {
     if (search_.find_otherwise(way, system_, observables_.needs_stability(), orbit_))
-      balance = observables_.energy_balance(orbit_, system_);
+      is_balanced = observables_.is_balanced(orbit_, system_);
   }
-  if (balance <= kBalanced) return;
+  if (is_balanced) return;
   orbit_.status = Status::failed;
-  orbit_.reason = unbalanced(balance);
+  orbit_.reason = unbalanced(observables_.energy_balance());
   search_.forget();
 }
 

@@ -14,9 +14,8 @@
 namespace frahm::periodic::nonstop {
 
 bool NonstopSolver::quantities(int lane, std::span<double> out) {
-  constexpr double kBalanced = 1e-9;
   measure(lane);
-  if (request_.needs.input && !(value::energy_balance(measured_, {}) <= kBalanced)) return false;
+  if (request_.needs.input && !value::is_balanced(measured_)) return false;
   tell_values(request_, measured_, out);
   return true;
 }

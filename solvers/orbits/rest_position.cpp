@@ -10,26 +10,33 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-// lower <= A delta <= upper, an entry each, of forces with these limits.
+constexpr double kInside = 0.5 * kGrazing;  // of the size of a force
+
+// lower <= A delta <= upper, an entry each, of forces with these limits. The size of a force is its limit, or
+// more where kInside of the limit is less than what the forces are rounded by.
 struct Bounds {
   MatrixXd A;
-  VectorXd lower, upper, limit;
+  VectorXd lower, upper, limit, size;
 
-  double room(const VectorXd& delta) const {  // the least, of the limits; negative where one is broken
+  double room(const VectorXd& delta) const {  // the least, of the sizes; negative where a limit is broken
     const VectorXd change = A * delta;
-    return ((change - lower).cwiseMin(upper - change).array() / limit.array()).minCoeff();
+    return ((change - lower).cwiseMin(upper - change).array() / size.array()).minCoeff();
   }
 };
 
 Bounds bounds_of(std::span<const StuckForce> forces, Index contacts) {
+  constexpr double kRounding = 1e-14;  // of the largest force
   const auto m = static_cast<Index>(forces.size());
-  Bounds bounds{MatrixXd(m, contacts), VectorXd(m), VectorXd(m), VectorXd(m)};
+  Bounds bounds{MatrixXd(m, contacts), VectorXd(m), VectorXd(m), VectorXd(m), VectorXd(m)};
+  double largest = 0.0;
+  for (const StuckForce& force : forces) largest = std::max({largest, force.most, -force.least});
   for (Index i = 0; i < m; ++i) {
     const StuckForce& force = forces[static_cast<std::size_t>(i)];
     bounds.A.row(i) = force.shares.transpose();
     bounds.lower[i] = -force.limit - force.least;
     bounds.upper[i] = force.limit - force.most;
     bounds.limit[i] = force.limit;
+    bounds.size[i] = std::max(force.limit, kRounding * largest / kInside);
   }
   return bounds;
 }
@@ -40,7 +47,7 @@ bool close(Bounds& bounds) {
   for (Index i = 0; i < bounds.limit.size(); ++i) {
     double& lower = bounds.lower[i];
     double& upper = bounds.upper[i];
-    if (lower > upper + kGrazing * bounds.limit[i]) return false;
+    if (lower > upper + kGrazing * bounds.size[i]) return false;
     if (lower > upper) lower = upper = 0.5 * (lower + upper);
   }
   return true;
@@ -48,9 +55,8 @@ bool close(Bounds& bounds) {
 
 // Forces that stay inside their limits by this much, where they can, let no contact slip by rounding.
 void keep_from_slipping(Bounds& bounds) {
-  constexpr double kInside = 0.5 * kGrazing;  // of the limit
   for (Index i = 0; i < bounds.limit.size(); ++i) {
-    const double by = std::min(kInside * bounds.limit[i], 0.5 * (bounds.upper[i] - bounds.lower[i]));
+    const double by = std::min(kInside * bounds.size[i], 0.5 * (bounds.upper[i] - bounds.lower[i]));
     bounds.lower[i] += by;
     bounds.upper[i] -= by;
   }
@@ -78,7 +84,7 @@ VectorXd shared_minimum(const MatrixXd& G, const VectorXd& c, const Bounds& boun
 
 RestShift least_energy_shift(const RestDirections& rest, const VectorXd& z_mean,
                              std::span<const StuckForce> forces) {
-  constexpr double kBroken = -1e-9;  // of a limit
+  constexpr double kBroken = -1e-9;  // of the size of a force
   Bounds bounds = bounds_of(forces, rest.E.cols());
   if (!close(bounds)) return {};
   const MatrixXd G = rest.L.transpose() * rest.E;

@@ -32,14 +32,16 @@ class Observables {
     if (request_.needs.modes) modes_of(system, measured_.natural_frequency, measured_.modal_damping);
   }
 
-  // |work in - energy dissipated| in a period, relative. evaluate() uses the same measurements.
-  double energy_balance(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system) {
+  // Whether the work put in in a period is dissipated in it. evaluate() uses the same measurements.
+  bool is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system) {
     Needs needs = request_.needs;
     needs |= {.integrals = true, .energies = true, .input = true};
     measure(orbit, system, needs);
     is_measured_ = true;
-    return value::energy_balance(measured_, {});
+    return value::is_balanced(measured_);
   }
+  // Of the orbit measured last.
+  double energy_balance() const { return value::energy_balance(measured_, {}); }
 
   // The next call measures another orbit.
   void forget() { is_measured_ = false; }

@@ -23,6 +23,11 @@ std::complex<double> reference_component(const Measured& m, Eigen::Index row) {
   return {2.0 / m.period * m.gram(row, first), -2.0 / m.period * m.gram(row, first + 1)};
 }
 
+// The larger of what is put in, without regard to its sign, and what is dissipated.
+double energy_of_period(const Measured& m) {
+  return std::max(m.input_size, m.dissipated);
+}
+
 // Integral of c v^2, of s^2 / c in a damper through which a force s runs, and friction's.
 double loss(const Measured& m, std::size_t element) {
   const mechanics::ElementCoefficients& law = m.system->coefficients[element];
@@ -244,11 +249,21 @@ double energy_input(const Measured& m, const Asked&) {
 // If nothing moves, both are rounding of the forcing's energy; if nothing that moves is strained, both are
 // the closure error of the orbit's own energy.
 double energy_balance(const Measured& m, const Asked&) {
-  const double size = std::max(m.input_size, m.dissipated);
+  const double size = energy_of_period(m);
   const double closing = 1e-13 + 100.0 * m.residual;
   const double rounding =
       std::max(1e-11 * m.static_norm * m.static_norm, closing * m.state_norm * m.state_norm);
   return size > rounding ? std::abs(m.input - m.dissipated) / size : 0.0;
+}
+
+// The work of a force is rounded to a part of the work it would do on the whole displacement, however little
+// of it the mass moves.
+bool is_balanced(const Measured& m) {
+  constexpr double kBalanced = 1e-9;
+  constexpr double kWorkRounding = 1e-14;
+  const double energy = std::max(m.static_norm, m.state_norm);
+  return energy_balance(m, {}) * energy_of_period(m) <=
+         kBalanced * energy_of_period(m) + kWorkRounding * energy * energy;
 }
 
 double force_transmissibility(const Measured& m, const Asked&) {

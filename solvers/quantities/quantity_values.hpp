@@ -32,6 +32,7 @@ double coexisting(const Measured&, const Asked&);
 double period_multiple(const Measured&, const Asked&);
 double energy_input(const Measured&, const Asked&);
 double energy_balance(const Measured&, const Asked&);
+bool is_balanced(const Measured&);  // to 1e-9 of these energies and the rounding of the work
 double force_transmissibility(const Measured&, const Asked&);
 double residual(const Measured&, const Asked&);
 double error_bound(const Measured&, const Asked&);

@@ -17,7 +17,9 @@ constexpr double kOtherAgreement = 1e-7;  // of the largest velocity, accelerati
 constexpr double kOfForcing = 1e-10;      // of what the excitation would do at rest: rounding
 constexpr double kShareAgreement = 1e-6;  // of shares of a period and of energy
 constexpr double kBalance = 1e-9, kResidual = 1e-12, kStable = 1.0 + 1e-9, kLimit = 1.0 + 1e-9;
-constexpr double kForceRounding = 1e-14;  // of the largest force: limits may be orders of magnitude below it
+// Of the largest force, and of its work on the largest displacement: a limit and the energy of a period may
+// be orders of magnitude below them.
+constexpr double kRounding = 1e-14;
 
 bool is_energy(Measure measure) {
   return measure == Measure::energy || measure == Measure::energy_input;
@@ -198,7 +200,7 @@ void at_most(const std::string& invariant, const std::string& figure, double fou
 
 void check_contacts(const Case& original, const Answer& base, std::vector<Violation>& violations) {
   Worst stuck({"stuck throughout without stops", "", 0, 0, 0, standing_of(base, base)});
-  const double rounding = kForceRounding * largest_in_unit(base, "N");
+  const double rounding = kRounding * largest_in_unit(base, "N");
   for (std::size_t e = 0; e < original.network.elements.size(); ++e) {
     if (original.network.elements[e].type != mechanics::ElementType::coulomb) continue;
     const std::string& name = original.network.elements[e].name;
@@ -216,8 +218,11 @@ void check_contacts(const Case& original, const Answer& base, std::vector<Violat
 // What the answer must be by itself. `where` is the change that it is of.
 void check_itself(const Case& asked, const Answer& base, std::vector<Violation>& violations) {
   check_contacts(asked, base, violations);
-  if (has_energy(asked, base))
-    at_most("energy balance", "energy_balance", base["energy_balance"], kBalance, base, violations);
+  if (has_energy(asked, base)) {
+    const double rounding = kRounding * largest_in_unit(base, "N") * largest_in_unit(base, "m");
+    at_most("energy balance", "energy_balance", base["energy_balance"],
+            kBalance + rounding / base["energy_input"], base, violations);
+  }
   at_most("residual", "residual", base["residual"], kResidual, base, violations);
   if (base.status == 1)
     at_most("stable", "floquet_radius", base["floquet_radius"], kStable, base, violations);

@@ -38,11 +38,14 @@ TEST_CASE("What leaves the motion of a random network as it is leaves its respon
 // over and over. 2006082: of contacts in a loop one that rests by the others was taken for one that slides.
 // 3510: one carries its limit at times while the others hold it, and another was let go. 2045923: held
 // contacts were told shares of a loop beyond their limits that others can carry. 2048026: Newton's method led
-// to where friction of 10^6 holds a mass far off, and the map brings it back by 2 a period.
+// to where friction of 10^6 holds a mass far off, and the map brings it back by 2 a period. 2250325, 2285211:
+// a search that came from as far was left there, as a limit of 10^-5 was passed by the rounding of such
+// forces. 2285794: a mass slides by 10^-7 around a place that a static force moves it to, whose work is
+// rounded.
 TEST_CASE("Networks that once broke an invariant keep them all") {
-  for (const std::uint64_t seed :
-       {3510,   4929,   503736, 504224,  603720,  605939,  623420,  626547,  646138,  666023,
-        666224, 668320, 673959, 2001696, 2006082, 2045923, 2048026, 2149564, 2178322, 2234578}) {
+  for (const std::uint64_t seed : {3510,    4929,    503736,  504224,  603720,  605939,  623420,  626547,
+                                   646138,  666023,  666224,  668320,  673959,  2001696, 2006082, 2045923,
+                                   2048026, 2149564, 2178322, 2234578, 2285794, 2250325, 2285211}) {
     INFO("random_invariants --seed " << seed);
     CHECK(broken_by(seed, Of::all) == "");
   }
