@@ -94,10 +94,28 @@ print(json.dumps(found))`;
   );
 }
 
-// One browser for all tests of a file: it takes a second to start.
+// One browser for all tests of a file: it takes a second to start. Those that stopped drawing are kept to the end.
 let browser;
-export const closeBrowser = () => browser?.close();
+const browsers = [];
+const launch = async () => {
+  browser = await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox"] });
+  browsers.push(browser);
+};
+export const closeBrowser = () => Promise.all(browsers.map((each) => each.close()));
 after(closeBrowser);
+
+async function isReady(page) {
+  await page.waitForFunction(() => document.body.dataset.state !== undefined, null, { timeout: 60_000 });
+  return page.evaluate(() => document.body.dataset.state === "ready");
+}
+
+function areDrawn(page) {
+  return page.waitForFunction(
+    () => [...document.querySelectorAll(".plot")].every((plot) => plot.querySelector("svg")),
+    null,
+    { timeout: 60_000 },
+  );
+}
 
 // A page in a session of its own; closed at the end of the test. {page, complaints}.
 export async function open(
@@ -105,7 +123,7 @@ export async function open(
   file,
   { width = 1280, height = 900, colorScheme = "light", hasTouch = false } = {},
 ) {
-  browser ??= await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox"] });
+  if (!browser) await launch();
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme,
@@ -124,20 +142,18 @@ export async function open(
     if (!/^(file|data|blob):/.test(request.url())) complaints.push(`asks for ${request.url()}`);
   });
   await page.goto(pathToFileURL(file).href);
-  await page.waitForFunction(() => document.body.dataset.state !== undefined, null, { timeout: 60_000 });
-  assert.equal(await page.evaluate(() => document.body.dataset.state), "ready", complaints.join("\n"));
-  await page.waitForFunction(
-    () => [...document.querySelectorAll(".plot")].every((plot) => plot.querySelector("svg")),
-    null,
-    { timeout: 60_000 },
-  );
+  assert.ok(await isReady(page), complaints.join("\n"));
+  await areDrawn(page);
   return { page, complaints };
 }
 
 // The text of the file that a button gives.
 export async function saved(page, button) {
   const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
-  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
+  return {
+    name: download.suggestedFilename(),
+    text: readFileSync(await download.path(), "utf8"),
+  };
 }
 
 // Whether a number is told as the page tells it: to six digits, the last uncertain by one.
@@ -155,17 +171,36 @@ export function csvRows(text) {
   return lines.map((cells) => Object.fromEntries(head.map((name, c) => [name, cells[c]])));
 }
 
+// A picture of a page. On a busy machine Chromium may draw no frame any more, however often it is asked (some one in
+// a thousand pictures): then a browser of its own draws the page, and opens the pages that follow.
+async function pictureOf(page, options, media) {
+  try {
+    return await page.screenshot(options);
+  } catch (error) {
+    if (error.name !== "TimeoutError") throw error;
+  }
+  console.log("Chromium drew no frame within 30 s; another one is started");
+  await launch();
+  const again = await browser.newPage({ viewport: page.viewportSize() });
+  await again.emulateMedia({ media });
+  await again.goto(page.url());
+  assert.ok(await isReady(again), "the page opens in another browser too");
+  await areDrawn(again);
+  const picture = await again.screenshot(options);
+  await again.close();
+  return picture;
+}
+
 // Pictures of a page as a phone, a laptop and a printer show it, and nothing wider than the window.
 export async function photographed(page, name) {
   if (screenshots) mkdirSync(screenshots, { recursive: true });
-  const keep = async (kind, width) => {
+  const keep = async (kind, width, media = "screen") => {
     // A window as high as the page: of a picture that goes beyond its window (fullPage) Chromium may draw no frame
     // on a busy machine, however often it is asked.
     const height = await page.evaluate(() => document.documentElement.scrollHeight);
     await page.setViewportSize({ width, height });
-    const picture = await page.screenshot(
-      screenshots ? { path: join(screenshots, `${name}_${kind}.png`) } : {},
-    );
+    const options = screenshots ? { path: join(screenshots, `${name}_${kind}.png`) } : {};
+    const picture = await pictureOf(page, options, media);
     assert.ok(picture.length > 10_000, `${name} ${kind}: an empty picture`);
   };
   for (const [kind, width, height] of [
@@ -183,7 +218,7 @@ export async function photographed(page, name) {
   await page.setViewportSize({ width: 794, height: 1123 }); // A4 at 96 dots an inch
   await page.emulateMedia({ media: "print" });
   await page.waitForTimeout(300);
-  await keep("print", 794);
+  await keep("print", 794, "print");
   await page.emulateMedia({ media: "screen" });
 }
 
@@ -197,7 +232,10 @@ export async function badLabels(page) {
         (text) => text.textContent.trim() && !text.closest("[aria-label=tip], [data-mark=tip]"),
       );
       const boxes = labels
-        .map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() }))
+        .map((text) => ({
+          text: text.textContent,
+          box: text.getBoundingClientRect(),
+        }))
         .filter(({ box }) => box.width > 0);
       for (const { text, box } of boxes) {
         if (
