@@ -133,7 +133,7 @@ TEST_CASE("The time of one motion is predicted from its steps") {
   CHECK_THAT(told("1e6"), Catch::Contains("\ntime       about "));
 }
 
-TEST_CASE("Of tiles that take seconds one point alone is sampled, and counts for its tile") {
+TEST_CASE("Of the first tile, if it takes seconds, at most three points are sampled, and count for it") {
   const TemporaryDirectory folder;
   const std::filesystem::path path = folder / "dear.toml";
   std::ofstream(path) << small_studies::oscillator() << small_studies::axis("r", 0.2, 2, 4000)
@@ -141,7 +141,7 @@ TEST_CASE("Of tiles that take seconds one point alone is sampled, and counts for
   MapPlan plan = plan_map(read_study_with(path, {}), {});
   plan.grid.tile = plan.grid.chunk = plan.grid.shape;  // a minute's work
   const auto sample = sample_map(plan, 0.0);
-  CHECK(sample.points <= 2);
+  CHECK(sample.points <= 3);
   REQUIRE(sample.costs.size() == 1);
   CHECK(sample.costs[0].seconds > 2.0);
   CHECK(sample.stored_bytes <= sample.raw_bytes);
