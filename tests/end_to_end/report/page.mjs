@@ -150,10 +150,7 @@ export async function open(
 // The text of the file that a button gives.
 export async function saved(page, button) {
   const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
-  return {
-    name: download.suggestedFilename(),
-    text: readFileSync(await download.path(), "utf8"),
-  };
+  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
 }
 
 // Whether a number is told as the page tells it: to six digits, the last uncertain by one.
@@ -171,8 +168,8 @@ export function csvRows(text) {
   return lines.map((cells) => Object.fromEntries(head.map((name, c) => [name, cells[c]])));
 }
 
-// A picture of a page. On a busy machine Chromium may draw no frame any more, however often it is asked (some one in
-// a thousand pictures): then a browser of its own draws the page, and opens the pages that follow.
+// A picture of a page. On a busy machine Chromium may, rarely, draw no frame any more, however often it is asked: then
+// another browser draws the page, and opens the pages that follow.
 async function pictureOf(page, options, media) {
   try {
     return await page.screenshot(options);
@@ -232,10 +229,7 @@ export async function badLabels(page) {
         (text) => text.textContent.trim() && !text.closest("[aria-label=tip], [data-mark=tip]"),
       );
       const boxes = labels
-        .map((text) => ({
-          text: text.textContent,
-          box: text.getBoundingClientRect(),
-        }))
+        .map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() }))
         .filter(({ box }) => box.width > 0);
       for (const { text, box } of boxes) {
         if (
