@@ -51,7 +51,7 @@ const Meaning other_words[] = {{"repeat",
                                 "are numbers; with a step [3, 60, 3]; of two indices every pair"},
                                {"deg", "deg: no unit of a study: a degree is written degree"}};
 
-const Meaning flags[] = {
+const Meaning flag_words[] = {
     {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
     {"ok",
      "status: a periodic response was found, with its accuracy beside it (residual, error_bound); without an "
@@ -269,7 +269,7 @@ std::vector<std::string> words_of_studies() {
     words.emplace_back(each.key);
     for (std::string& word : words_of(each)) words.push_back(std::move(word));
   }
-  for (const Meaning& each : flags) words.push_back(each.word);
+  for (const Meaning& each : flag_words) words.push_back(each.word);
   for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
   for (const RecordWord& each : record_words()) words.emplace_back(each.name);
   for (const Meaning& each : other_words) words.push_back(each.word);
@@ -286,7 +286,7 @@ int explain_command(const std::string& word, std::ostream& out) {
   for (const Meaning& each : exit_codes) {
     if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
   }
-  for (const Meaning& each : flags) {
+  for (const Meaning& each : flag_words) {
     if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
   }
   for (const Meaning& each : other_words) {

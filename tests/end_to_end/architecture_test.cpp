@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+namespace architecture_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,3 +150,4 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
 }
 
 }  // namespace
+}  // namespace architecture_test

@@ -6,6 +6,7 @@
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/study_path.hpp"
 
+namespace block_on_belt_test {
 namespace {
 
 using Catch::Matchers::WithinRel;
@@ -30,3 +31,4 @@ TEST_CASE("block_on_belt.toml: period, time of sticking and amplitude are those 
 }
 
 }  // namespace
+}  // namespace block_on_belt_test

@@ -10,6 +10,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace borders_test {
 namespace {
 
 using frahm::periodic::critical_friction;
@@ -279,3 +280,4 @@ TEST_CASE("the orbits kept have the sliding of each friction element, whose loop
 }
 
 }  // namespace
+}  // namespace borders_test

@@ -8,6 +8,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace braced_building_test {
 namespace {
 
 using Catch::Matchers::WithinRel;
@@ -77,3 +78,4 @@ TEST_CASE(
 }
 
 }  // namespace
+}  // namespace braced_building_test

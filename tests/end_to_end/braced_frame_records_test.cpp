@@ -10,6 +10,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace braced_frame_records_test {
 namespace {
 
 using std::numbers::pi;
@@ -94,3 +95,4 @@ TEST_CASE("braced_frame_records.toml: the mean sway over the quakes is least whe
 }
 
 }  // namespace
+}  // namespace braced_frame_records_test

@@ -8,6 +8,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace closed_forms_test {
 namespace {
 
 using namespace frahm::periodic;
@@ -116,3 +117,4 @@ TEST_CASE("cheng_zu_even.toml: an even order moves the mean, and without it ther
 }
 
 }  // namespace
+}  // namespace closed_forms_test

@@ -6,6 +6,7 @@
 #include "tests/end_to_end/small_runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace command_words_test {
 namespace {
 
 using runs::Folder;
@@ -202,3 +203,4 @@ TEST_CASE("a study without one motion or response has no measurements to export"
 }
 
 }  // namespace
+}  // namespace command_words_test

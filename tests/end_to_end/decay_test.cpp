@@ -11,6 +11,7 @@
 #include "tests/known_answers/free_oscillator.hpp"
 #include "tests/study_path.hpp"
 
+namespace decay_test {
 namespace {
 
 using frahm::transient::FreeOscillator;
@@ -161,3 +162,4 @@ TEST_CASE("A decay's file is exported, summed up, recomputed for its study and r
 }
 
 }  // namespace
+}  // namespace decay_test

@@ -12,7 +12,7 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 
-namespace frahm {
+namespace frahm::documents_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ TEST_CASE("the README stays short") {
 }
 
 }  // namespace
-}  // namespace frahm
+}  // namespace frahm::documents_test

@@ -11,6 +11,7 @@
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/study_path.hpp"
 
+namespace earthquakes_test {
 namespace {
 
 constexpr double gravity = 9.80665;  // [m/s2]
@@ -176,3 +177,4 @@ TEST_CASE(
 }
 
 }  // namespace
+}  // namespace earthquakes_test

@@ -10,7 +10,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
-namespace frahm {
+namespace frahm::examples_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,4 +138,4 @@ TEST_CASE("the walk-through ends with the numbers that it tells") {
 }
 
 }  // namespace
-}  // namespace frahm
+}  // namespace frahm::examples_test

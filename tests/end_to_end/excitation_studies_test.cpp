@@ -8,6 +8,7 @@
 #include "solvers/orbits/closed_forms.hpp"
 #include "tests/end_to_end/runs.hpp"
 
+namespace excitation_studies_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -116,3 +117,4 @@ TEST_CASE("base_through_inerter.toml: the inerter makes an antiresonance and spo
 }
 
 }  // namespace
+}  // namespace excitation_studies_test

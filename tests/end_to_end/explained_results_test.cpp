@@ -12,6 +12,7 @@
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/small_tunings.hpp"
 
+namespace explained_results_test {
 namespace {
 
 using runs::Folder;
@@ -104,3 +105,4 @@ TEST_CASE("every estimate and row of the methods of identification is explained"
 }
 
 }  // namespace
+}  // namespace explained_results_test

@@ -11,6 +11,7 @@
 #include "tests/results/whole_map.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace growing_files_test {
 namespace {
 
 using grown_maps::Points;
@@ -339,3 +340,4 @@ TEST_CASE("a point whose status is ok and that has no value is computed") {
 }
 
 }  // namespace
+}  // namespace growing_files_test

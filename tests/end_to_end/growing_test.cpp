@@ -7,6 +7,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace growing_test {
 namespace {
 
 using grown_maps::Points;
@@ -202,3 +203,4 @@ TEST_CASE("of a part of a map the points it has are taken over") {
 }
 
 }  // namespace
+}  // namespace growing_test

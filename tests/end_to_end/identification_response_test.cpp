@@ -6,6 +6,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace identification_response_test {
 namespace {
 
 using runs::Map;
@@ -94,3 +95,4 @@ TEST_CASE("identification_response.toml: curves are those of a mass on a moving 
 }
 
 }  // namespace
+}  // namespace identification_response_test

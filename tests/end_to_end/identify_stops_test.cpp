@@ -7,6 +7,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace identify_stops_test {
 namespace {
 
 // A machine on a guide that holds harder than it rubs, between buffers.
@@ -99,3 +100,4 @@ TEST_CASE("With noise they are found within four standard errors, which are smal
 }
 
 }  // namespace
+}  // namespace identify_stops_test

@@ -11,6 +11,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace identify_studies_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -337,3 +338,4 @@ TEST_CASE("the identification paper's eleven half-power rows come out") {
 }
 
 }  // namespace
+}  // namespace identify_studies_test

@@ -6,6 +6,7 @@
 #include "studies/map/grid.hpp"
 #include "tests/end_to_end/runs.hpp"
 
+namespace law_error_test {
 namespace {
 
 using runs::Map;
@@ -77,3 +78,4 @@ TEST_CASE("law_error_slope.toml: the values do not depend on the number of threa
 }
 
 }  // namespace
+}  // namespace law_error_test

@@ -6,6 +6,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace lecture_materials_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -57,3 +58,4 @@ TEST_CASE("lecture_kelvin_voigt.toml: the loss factor is 2 zeta r, and a constan
 }
 
 }  // namespace
+}  // namespace lecture_materials_test

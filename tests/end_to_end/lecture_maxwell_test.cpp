@@ -6,6 +6,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace lecture_maxwell_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -64,3 +65,4 @@ TEST_CASE("lecture_maxwell.toml: a Maxwell element is a damper to slow motion an
 }
 
 }  // namespace
+}  // namespace lecture_maxwell_test

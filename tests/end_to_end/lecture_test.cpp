@@ -7,6 +7,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace lecture_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -133,3 +134,4 @@ TEST_CASE(
 }
 
 }  // namespace
+}  // namespace lecture_test

@@ -6,6 +6,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace pendulum_absorber_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -64,3 +65,4 @@ TEST_CASE("pendulum_absorber.toml: friction keeps the pendulum from swinging, an
 }
 
 }  // namespace
+}  // namespace pendulum_absorber_test

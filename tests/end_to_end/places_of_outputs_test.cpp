@@ -7,6 +7,7 @@
 #include "tests/end_to_end/small_runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace places_of_outputs_test {
 namespace {
 
 using runs::Folder;
@@ -265,3 +266,4 @@ TEST_CASE("a run refused for a foreign log leaves nothing, and a file named as i
 }
 
 }  // namespace
+}  // namespace places_of_outputs_test

@@ -8,6 +8,7 @@
 #include "tests/end_to_end/small_runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace program_test {
 namespace {
 
 using runs::Folder;
@@ -213,3 +214,4 @@ TEST_CASE("status tells of a finished file what it holds, and of no file that th
 }
 
 }  // namespace
+}  // namespace program_test

@@ -7,6 +7,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace rack_and_pinion_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -92,3 +93,4 @@ TEST_CASE("rack_and_pinion.toml: another radius is another study, which --set ma
 }
 
 }  // namespace
+}  // namespace rack_and_pinion_test

@@ -6,6 +6,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace resonance_test {
 namespace {
 
 using Columns = std::map<std::string, std::vector<double>>;
@@ -152,3 +153,4 @@ TEST_CASE("An unbounded resonance is infinite, has no half-power points, and fri
 }
 
 }  // namespace
+}  // namespace resonance_test

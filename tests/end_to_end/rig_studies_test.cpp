@@ -10,6 +10,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace rig_studies_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -270,3 +271,4 @@ TEST_CASE("rig_tmd_damping.toml: friction in the absorber replaces damping: wors
 }
 
 }  // namespace
+}  // namespace rig_studies_test

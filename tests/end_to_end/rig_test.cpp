@@ -7,6 +7,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace rig_test {
 namespace {
 
 using runs::Map;
@@ -67,3 +68,4 @@ TEST_CASE("rig_without_absorber.toml: without friction the response is the linea
 }
 
 }  // namespace
+}  // namespace rig_test

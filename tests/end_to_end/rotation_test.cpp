@@ -7,6 +7,7 @@
 
 #include "tests/end_to_end/motion_file.hpp"
 
+namespace rotation_test {
 namespace {
 
 constexpr double k = 8.0, T = 0.4, natural = 20.0;  // [N m/rad], [N m], sqrt(k/J) [rad/s], J = 0.02 kg m2
@@ -62,3 +63,4 @@ TEST_CASE("a torque suddenly applied turns a rotor twice as far as it holds, les
 }
 
 }  // namespace
+}  // namespace rotation_test

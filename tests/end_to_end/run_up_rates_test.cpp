@@ -4,6 +4,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace run_up_rates_test {
 namespace {
 
 TEST_CASE(
@@ -35,3 +36,4 @@ TEST_CASE(
 }
 
 }  // namespace
+}  // namespace run_up_rates_test

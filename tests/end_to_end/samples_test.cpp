@@ -10,6 +10,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace samples_test {
 namespace {
 
 using frahm::results::MapReader;
@@ -93,7 +94,8 @@ double quantile_of(std::vector<double> values, double share) {
          (at - static_cast<double>(below)) * (values[std::min(below + 1, values.size() - 1)] - values[below]);
 }
 
-TEST_CASE("quantiles of 1000 random samples carry intervals that hold the true ones in 95 of 100 seeds") {
+TEST_CASE("quantiles of 1000 random samples carry intervals that hold the true ones in 95 of 100 seeds",
+          "[long]") {
   // P(X < x) = P(k > 1/x + r^2): the quantile of X at p is that of k at 1 - p. Of k, cut at four deviations
   // below, the shares 0.05, 0.5 and 0.95 lie at -1.644854, 0 and 1.644854 deviations, to 1e-4 of the share.
   const auto exact = [](double deviations) { return 1.0 / (1.0 + 0.1 * deviations - 0.25); };
@@ -341,3 +343,4 @@ TEST_CASE("rig_scatter.toml: the samples have the covariance that the rig's iden
 }
 
 }  // namespace
+}  // namespace samples_test

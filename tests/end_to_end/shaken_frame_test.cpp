@@ -7,6 +7,7 @@
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/end_to_end/runs.hpp"
 
+namespace shaken_frame_test {
 namespace {
 
 // The study with few points and all digits.
@@ -89,3 +90,4 @@ TEST_CASE("shaken_frame.toml: a point is told as its motion is, with its history
 }
 
 }  // namespace
+}  // namespace shaken_frame_test

@@ -10,6 +10,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace shards_test {
 namespace {
 
 using runs::Folder;
@@ -185,3 +186,4 @@ TEST_CASE("status tells the tasks of every number of shards, and tiles where the
 }
 
 }  // namespace
+}  // namespace shards_test

@@ -4,6 +4,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace slipping_brace_test {
 namespace {
 
 using runs::Map;
@@ -34,3 +35,4 @@ TEST_CASE("slipping_brace.toml: a loop takes 4 F (X - F/k_t), and a brace that n
 }
 
 }  // namespace
+}  // namespace slipping_brace_test

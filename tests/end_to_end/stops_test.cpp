@@ -11,6 +11,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace stops_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -496,3 +497,4 @@ TEST_CASE("a map of a system with several responses says what was searched") {
 }
 
 }  // namespace
+}  // namespace stops_test

@@ -7,6 +7,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace structures_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -94,3 +95,4 @@ TEST_CASE("tower_damper.toml: floors and damper move as complex numbers say") {
 }
 
 }  // namespace
+}  // namespace structures_test

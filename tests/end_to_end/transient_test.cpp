@@ -11,6 +11,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace transient_test {
 namespace {
 
 // Peak of the periodic response of a transient study's system.
@@ -92,3 +93,4 @@ TEST_CASE("A transient of a wrong sweep, or of a network that cannot move, is re
 }
 
 }  // namespace
+}  // namespace transient_test

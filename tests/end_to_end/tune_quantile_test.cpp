@@ -11,6 +11,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace tune_quantile_test {
 namespace {
 
 constexpr double certified = 1e-6;  // the certificate gap, as promised
@@ -56,7 +57,8 @@ std::vector<double> quantiles_at(double from, double to, int points) {
   return quantiles;
 }
 
-TEST_CASE("tune_quantile.toml: no slip force of a dense scan has a smaller quantile of the worst drifts") {
+TEST_CASE("tune_quantile.toml: no slip force of a dense scan has a smaller quantile of the worst drifts",
+          "[long]") {
   const runs::Folder folder;
   const std::string file = folder / "tuned.h5";
   const runs::Outcome run = runs::frahm({"run", study_path("tune_quantile"), "-o", file});
@@ -80,3 +82,4 @@ TEST_CASE("tune_quantile.toml: no slip force of a dense scan has a smaller quant
 }
 
 }  // namespace
+}  // namespace tune_quantile_test

@@ -10,6 +10,7 @@
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
 
+namespace tune_records_test {
 namespace {
 
 constexpr double certified = 1e-6;  // the certificate gap, as promised
@@ -57,7 +58,8 @@ double least_worst(const std::vector<std::vector<double>>& peaks) {
   return least;
 }
 
-TEST_CASE("tune_slip_force.toml: no point of a fine scan over slip force and stiffness has a smaller drift") {
+TEST_CASE("tune_slip_force.toml: no point of a fine scan over slip force and stiffness has a smaller drift",
+          "[long]") {
   const runs::Folder folder;
   const std::string file = folder / "tuned.h5";
   const runs::Outcome run = runs::frahm({"run", study_path("tune_slip_force"), "-o", file});
@@ -114,3 +116,4 @@ TEST_CASE("A tuning over records says what it has no answer to: a sweep of the b
 }
 
 }  // namespace
+}  // namespace tune_records_test

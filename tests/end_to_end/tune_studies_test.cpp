@@ -16,6 +16,7 @@
 #include "tests/known_answers/nishihara_asami.hpp"
 #include "tests/study_path.hpp"
 
+namespace tune_studies_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -181,7 +182,8 @@ const char* const rig_studies[] = {"tune_rig_inertance",          "tune_rig_iner
                                    "tune_rig_schedule",           "tune_rig_schedule_stiffness_damping",
                                    "tune_rig_schedule_stiffness", "tune_rig_schedule_dominating"};
 
-TEST_CASE("each rig tuning, with and without friction: certified, and no higher peak at 20,000 frequencies") {
+TEST_CASE("each rig tuning, with and without friction: certified, and no higher peak at 20,000 frequencies",
+          "[long]") {
   for (const char* name : rig_studies) {
     for (const char* friction : {"friction=1", "friction=0"}) {
       INFO(name << " " << friction);
@@ -427,3 +429,4 @@ TEST_CASE("tune_absorber_stops.toml: the worst of the stable responses found, an
 }
 
 }  // namespace
+}  // namespace tune_studies_test

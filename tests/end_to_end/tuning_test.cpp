@@ -9,6 +9,7 @@
 #include "tests/known_answers/nishihara_asami.hpp"
 #include "tests/studies/small_tunings.hpp"
 
+namespace tuning_test {
 namespace {
 
 using runs::Folder;
@@ -238,3 +239,4 @@ TEST_CASE("a tuning's table, schedule and what is asked wrongly of an export") {
 }
 
 }  // namespace
+}  // namespace tuning_test

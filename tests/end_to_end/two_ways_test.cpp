@@ -6,6 +6,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 
+namespace two_ways_test {
 namespace {
 
 using runs::Map;
@@ -68,3 +69,4 @@ TEST_CASE("den_hartog, cheng_zu, levitan and the regime map are the same both wa
 }
 
 }  // namespace
+}  // namespace two_ways_test

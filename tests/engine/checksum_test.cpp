@@ -5,6 +5,7 @@
 
 #include "engine/bytes.hpp"
 
+namespace checksum_test {
 using namespace frahm::engine;
 
 TEST_CASE("checksums have their published check values") {
@@ -21,3 +22,4 @@ TEST_CASE("numbers are stored least significant byte first") {
   CHECK(bytes.back() == std::byte{1});
   CHECK(get_little_endian<std::uint64_t>(bytes.data()) == 0x0102030405060708);
 }
+}  // namespace checksum_test

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+namespace dealer_test {
 using namespace frahm::engine;
 using Catch::Matchers::Contains;
 using Kind = RankMessage::Kind;
@@ -334,3 +335,4 @@ TEST_CASE("a rank that never came is given up too") {
   CHECK(dealer.all_have_left());
   CHECK(mine == numbers(3));
 }
+}  // namespace dealer_test

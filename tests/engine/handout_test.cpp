@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+namespace handout_test {
 using namespace frahm::engine;
 
 TEST_CASE("a block is a quarter of the rank's share by threads of what is left") {
@@ -16,3 +17,4 @@ TEST_CASE("there is a tile for each that asks as long as one is left") {
   CHECK(block_size(1, 64, 64) == 1);
   CHECK(block_size(3, 1, 1000) == 1);
 }
+}  // namespace handout_test

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+namespace in_order_test {
 using namespace frahm::engine;
 
 namespace {
@@ -131,3 +132,4 @@ TEST_CASE("a workspace that cannot be made is an error, and no pieces are no wor
   CHECK(make_in_order(
       2, 0, [] { return PieceWork(); }, never));
 }
+}  // namespace in_order_test

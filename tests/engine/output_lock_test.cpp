@@ -5,6 +5,7 @@
 #include "engine/io_error.hpp"
 #include "tests/engine/sample_job.hpp"
 
+namespace output_lock_test {
 using namespace frahm::engine;
 using Catch::Matchers::Contains;
 
@@ -47,3 +48,4 @@ TEST_CASE("a file of the lock's name that is no lock is refused and stays as it 
   std::ifstream file(lock_path(scratch.output()));
   CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == work);
 }
+}  // namespace output_lock_test

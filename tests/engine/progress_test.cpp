@@ -7,6 +7,7 @@
 
 #include "tests/engine/sample_job.hpp"
 
+namespace progress_test {
 using namespace frahm::engine;
 using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
@@ -174,3 +175,4 @@ TEST_CASE("a run reports to stderr from its first to its last point") {
   CHECK_THAT(caught.str(), StartsWith(R"({"event":"progress")") && Contains(R"({"event":"end")"));
   CHECK_THAT(caught.str(), Contains(R"("percent":100.000)"));
 }
+}  // namespace progress_test

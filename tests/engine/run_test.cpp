@@ -12,6 +12,7 @@
 #include "engine/shard_log.hpp"
 #include "tests/engine/sample_job.hpp"
 
+namespace run_test {
 using namespace frahm::engine;
 using Catch::Matchers::Contains;
 
@@ -281,3 +282,4 @@ TEST_CASE("options outside their range are refused with their value") {
   options.time_budget = std::chrono::seconds(-1);
   CHECK_THROWS_WITH(run(sample_job(5), options), Contains("-1"));
 }
+}  // namespace run_test

@@ -7,6 +7,7 @@
 #include "engine/log_format.hpp"
 #include "tests/engine/sample_job.hpp"
 
+namespace shard_log_test {
 using namespace frahm::engine;
 using Catch::Matchers::Contains;
 
@@ -264,3 +265,4 @@ TEST_CASE("a full disk is an error naming file, operation and reason") {
   CHECK_THROWS_WITH(full.write_at(0, sample(1)),
                     Contains("write") && Contains("/dev/full") && Contains("No space left on device"));
 }
+}  // namespace shard_log_test

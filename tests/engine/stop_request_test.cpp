@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 
+namespace stop_request_test {
 using namespace frahm::engine;
 using namespace std::chrono_literals;
 
@@ -37,3 +38,4 @@ TEST_CASE("who started the work may call it off") {
   CHECK(stop.asked());
   CHECK(stop.reason() == "called off");
 }
+}  // namespace stop_request_test

@@ -1,5 +1,6 @@
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -10,10 +11,9 @@
 #include "engine/stop_signals.hpp"
 #include "tests/engine/sample_job.hpp"
 
+namespace stop_test {
 using namespace frahm::engine;
 using Catch::Matchers::Contains;
-
-extern char** environ;
 
 namespace {
 
@@ -177,3 +177,4 @@ TEST_CASE("a kill loses only the tiles in hand") {
   CHECK(run(sample_job(40), quiet(scratch)).tiles_resumed == 17);
   CHECK(kept_tiles(scratch.output(), study_of(sample_job(40))) == expected_tiles(40));
 }
+}  // namespace stop_test

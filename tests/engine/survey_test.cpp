@@ -8,6 +8,7 @@
 #include "engine/shard_log.hpp"
 #include "tests/engine/sample_job.hpp"
 
+namespace survey_test {
 using namespace frahm::engine;
 using std::chrono::system_clock;
 
@@ -112,3 +113,4 @@ TEST_CASE("a survey does not disturb a writer that starts at the same moment") {
   ended = true;
   looking.join();
 }
+}  // namespace survey_test

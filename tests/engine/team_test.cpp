@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+namespace team_test {
 using namespace frahm::engine;
 
 TEST_CASE("a team does its work once in each thread and ends without an error") {
@@ -72,3 +73,4 @@ TEST_CASE("a task of Slurm has a thread for each processor it was given, and no 
   CHECK(threads_with_slurm("1000000") == all);
   for (const char* wrong : {"", "0", "-1", "many"}) CHECK(threads_with_slurm(wrong) == all);
 }
+}  // namespace team_test

@@ -10,6 +10,7 @@
 #include "engine/team.hpp"
 #include "tests/engine/sample_job.hpp"
 
+namespace tile_index_test {
 using namespace frahm::engine;
 using Catch::Matchers::Contains;
 
@@ -165,3 +166,4 @@ TEST_CASE("a directory that is not there is an error naming it") {
   CHECK_THROWS_WITH(find_logs(scratch.directory() / "absent" / "map.h5"),
                     Contains("absent") && Contains("No such file"));
 }
+}  // namespace tile_index_test

@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+namespace tile_queue_test {
 using namespace frahm::engine;
 
 TEST_CASE("tiles leave their queue in order, and none is left when it is closed and empty") {
@@ -37,3 +38,4 @@ TEST_CASE("threads wait at an open queue for what is added, and leave when it is
   CHECK(sum == 111);
   CHECK(queue.is_empty());
 }
+}  // namespace tile_queue_test

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
+namespace watch_test {
 using namespace frahm::engine;
 using namespace std::chrono_literals;
 
@@ -33,3 +34,4 @@ TEST_CASE("a watch with a long period ends at once") {
   }
   CHECK(std::chrono::steady_clock::now() - start < 10s);
 }
+}  // namespace watch_test

@@ -18,7 +18,7 @@
 #include "tests/known_answers/rig.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
-namespace frahm::periodic {
+namespace frahm::periodic::arctan_test {
 namespace {
 
 using std::numbers::pi;
@@ -344,4 +344,4 @@ TEST_CASE("More contacts than the exact law can follow have the response of the 
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::arctan_test

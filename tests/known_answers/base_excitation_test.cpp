@@ -6,7 +6,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // A moving base: the same mathematics as a force on the mass, but built from other elements.
-namespace frahm::periodic {
+namespace frahm::periodic::base_excitation_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -67,4 +67,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::base_excitation_test

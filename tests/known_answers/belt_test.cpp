@@ -11,7 +11,7 @@
 // friction holds, k x = f_s, slides back against f_k, and is caught where its velocity is V again. With D =
 // (f_s - f_k)/k and w = sqrt(k/m):
 //   x - f_k/k = D cos wt + (V/w) sin wt while it slides;  T = 2 D/V + (2/w)(pi - atan(w D/V))
-namespace frahm::periodic {
+namespace frahm::periodic::belt_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -69,8 +69,8 @@ TEST_CASE("A block on a belt sticks and slips with the period and the amplitude 
   }
 }
 
-// The belt drags with 0.5, the ground holds with 0.2: from rest x = -0.3 (1 - cos t) until the block stands at
-// -0.6 for ever, where the spring, the belt and the ground balance. Nothing but the belt moves it.
+// The belt drags with 0.5, the ground holds with 0.2: from rest x = -0.3 (1 - cos t) until the block stands
+// at -0.6 for ever, where the spring, the belt and the ground balance. Nothing but the belt moves it.
 TEST_CASE("A block that a belt alone drags over rubbing ground comes to rest") {
   Network network = block_on_belt(false);
   network.elements.push_back({"ground", ElementType::coulomb, ground, block});
@@ -197,4 +197,4 @@ TEST_CASE("The smoothed law on a belt differs from the exact one as its slope le
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::belt_test

@@ -9,7 +9,7 @@
 
 // The references themselves are tested first: each closed-form orbit is integrated through its equation of
 // motion.
-namespace frahm::periodic {
+namespace frahm::periodic::closed_forms_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -178,4 +178,4 @@ TEST_CASE("Closed forms refuse what lies outside their region") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::closed_forms_test

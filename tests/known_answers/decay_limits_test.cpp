@@ -7,7 +7,7 @@
 #include "tests/known_answers/free_oscillator.hpp"
 
 // How far a decay is followed: given durations, stiff systems, sizes at the edge of what a double holds.
-namespace frahm::transient {
+namespace frahm::transient::decay_limits_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -186,4 +186,4 @@ TEST_CASE("A load suddenly applied overshoots its static deflection by beta, wit
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::decay_limits_test

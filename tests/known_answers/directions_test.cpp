@@ -8,7 +8,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // Levers, gears, racks and inclined elements against the systems that they reduce to by hand.
-namespace frahm::periodic {
+namespace frahm::periodic::directions_test {
 namespace {
 
 using namespace mechanics;
@@ -342,4 +342,4 @@ TEST_CASE("contacts along equal or opposite directions are one, and no others") 
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::directions_test

@@ -8,7 +8,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // A spring with a cubic part (Duffing): x'' + c x' + x + a x^3 = P cos(r tau).
-namespace frahm::periodic {
+namespace frahm::periodic::duffing_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -234,4 +234,4 @@ TEST_CASE("An orbit of three periods of the force is found and told as one", "[s
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::duffing_test

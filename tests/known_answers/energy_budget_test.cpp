@@ -11,7 +11,7 @@
 #include "tests/known_answers/rig.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
-namespace frahm::transient {
+namespace frahm::transient::energy_budget_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -356,4 +356,4 @@ TEST_CASE("Elements that change in a run-up put in what they change of the energ
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::energy_budget_test

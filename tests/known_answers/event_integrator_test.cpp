@@ -12,7 +12,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // The orbits found, against an independent integration with set-valued friction.
-namespace frahm::periodic {
+namespace frahm::periodic::event_integrator_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -98,4 +98,4 @@ TEST_CASE("The rig at random points moves as the independent integration says") 
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::event_integrator_test

@@ -13,7 +13,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // Forced motion from given initial values, against independent integrations and the periodic responses.
-namespace frahm::transient {
+namespace frahm::transient::forced_motion_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -302,4 +302,4 @@ TEST_CASE("A transient of more steps than anyone waits for fails at once with it
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::forced_motion_test

@@ -10,7 +10,7 @@
 #include "tests/known_answers/free_oscillator.hpp"
 
 // Free vibration against the closed forms of one mass and an independent integration.
-namespace frahm::transient {
+namespace frahm::transient::free_decay_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -292,4 +292,4 @@ TEST_CASE("Initial values that are no numbers, or of the wrong number, are refus
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::free_decay_test

@@ -12,7 +12,7 @@
 // The responses of networks of monotone laws, drawn at random, beside what an independent integration comes
 // to from rest: it knows nothing of the response, not even a state of it. Their response is one, so that both
 // must agree.
-namespace frahm::periodic {
+namespace frahm::periodic::from_rest_test {
 namespace {
 
 constexpr double kSettled = 1e-10;  // change of the velocities in a period, of the fastest
@@ -101,4 +101,4 @@ TEST_CASE("So does that of 1000", "[.thorough]") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::from_rest_test

@@ -10,7 +10,7 @@
 
 // A system whose second mass is counted behind a gear, q = ratio x the coordinate, in every solver: it moves
 // as it did, only counted otherwise.
-namespace frahm::periodic {
+namespace frahm::periodic::geared_test {
 namespace {
 
 using namespace mechanics;
@@ -183,4 +183,4 @@ TEST_CASE("derivatives with levers in the network are those of differences") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::geared_test

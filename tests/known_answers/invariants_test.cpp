@@ -7,7 +7,7 @@
 #include <string>
 
 // The program random_invariants looks for more; it shrinks what it finds.
-namespace frahm::invariants {
+namespace frahm::invariants::invariants_test {
 namespace {
 
 // What of the invariants the network breaks, as text: by all answers, or those that stand without doubt.
@@ -52,4 +52,4 @@ TEST_CASE("Networks that once broke an invariant keep them all") {
 }
 
 }  // namespace
-}  // namespace frahm::invariants
+}  // namespace frahm::invariants::invariants_test

@@ -10,7 +10,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Sliders side by side as one element beside a spring: x'' + 2 zeta x' + x + sum s_i = cos(r tau).
-namespace frahm::periodic {
+namespace frahm::periodic::iwan_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -211,4 +211,4 @@ TEST_CASE("Decays and transients tell a joint's energy as that of its sliders") 
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::iwan_test

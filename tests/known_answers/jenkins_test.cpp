@@ -12,7 +12,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // A spring and a slider in series (Jenkins) beside a spring: x'' + 2 zeta x' + x + s = cos(r tau).
-namespace frahm::periodic {
+namespace frahm::periodic::jenkins_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -301,4 +301,4 @@ TEST_CASE("A building whose braces slip moves from rest as the independent integ
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::jenkins_test

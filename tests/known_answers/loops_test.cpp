@@ -10,7 +10,7 @@
 
 // Contacts that form a loop: two masses held to the ground and to each other. What each carries is a
 // convention, the least sum of (lambda / F)^2 within the limits, of which the answers here follow by hand.
-namespace frahm::periodic {
+namespace frahm::periodic::loops_test {
 namespace {
 
 using namespace mechanics;
@@ -239,4 +239,4 @@ TEST_CASE("A clamp lets go where the limits of no distribution hold it") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::loops_test

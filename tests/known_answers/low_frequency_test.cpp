@@ -8,7 +8,7 @@
 
 // Low frequencies: with low damping, where one half cycle holds many stops, against a long forward march from
 // rest; and where friction holds for ever, against the closed form.
-namespace frahm::periodic {
+namespace frahm::periodic::low_frequency_test {
 namespace {
 
 constexpr double kBalance = 1e-10;
@@ -93,4 +93,4 @@ TEST_CASE("Masses that friction ties stay together through a long period, within
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::low_frequency_test

@@ -11,7 +11,7 @@
 // Networks of monotone laws, drawn at random, against an integration that shares nothing with the solvers:
 // Coulomb, Jenkins and Maxwell elements, inerters, hysteretic springs and dampers with rising tables. A
 // motion that returns to its start is a periodic response, and monotone laws have only one.
-namespace frahm::periodic {
+namespace frahm::periodic::monotone_networks_test {
 namespace {
 
 constexpr double kAgrees = 1e-8;    // of the largest peak displacement or velocity
@@ -113,4 +113,4 @@ TEST_CASE("So do 5000, with up to five masses and four contacts", "[.thorough]")
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::monotone_networks_test

@@ -13,7 +13,7 @@
 // Stops, tables and static friction: laws that are linear piece by piece. One mass of x'' + 2 zeta x' + x
 // plus such an element under cos(r tau), by figures of two independent methods (project's contract, section
 // 13); random networks against an independent event-driven integration.
-namespace frahm::periodic {
+namespace frahm::periodic::piecewise_linear_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -328,4 +328,4 @@ TEST_CASE("So does a chain of nine masses with damped stops, tables and static f
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::piecewise_linear_test

@@ -8,7 +8,7 @@
 #include "solvers/transient/generated_records.hpp"
 
 // Ensembles of white noise against the closed forms of the variances it causes.
-namespace frahm::transient {
+namespace frahm::transient::random_excitation_test {
 namespace {
 
 using mechanics::ElementType, mechanics::ExcitationKind, mechanics::Network, mechanics::NetworkValues;
@@ -115,11 +115,12 @@ TEST_CASE("White noise on a linear oscillator causes Lyapunov's variances, insid
 }
 
 // v' = w - F sgn v: the stationary density is  exp(-F |v|/(pi S0)),  so that  sigma_v^2 = 2 (pi S0/F)^2
-// (Fokker and Planck). Straight lines between samples D apart leave out 0.8 D F^2/(pi S0) of it, to first order:
-// 1.64 % at 50 samples a second and 0.63 % at 125, found of 200 and 400 seeds of 40 records of 150 s, with a standard
-// error of 0.44 and 0.32 %. With that taken off, 97 of 100 ensembles of 160 records at 125 samples a second hold it in
-// their interval of 95 %, 94 without; of 40 records 375 of 400, as the mean squares are skewed: all that miss lie low.
-TEST_CASE("White noise on a mass with friction alone causes the variance of Fokker and Planck", "[slow]") {
+// (Fokker and Planck). Straight lines between samples D apart leave out 0.8 D F^2/(pi S0) of it, to first
+// order: 1.64 % at 50 samples a second and 0.63 % at 125, found of 200 and 400 seeds of 40 records of 150 s,
+// with a standard error of 0.44 and 0.32 %. With that taken off, 97 of 100 ensembles of 160 records at 125
+// samples a second hold it in their interval of 95 %, 94 without; of 40 records 375 of 400, as the mean
+// squares are skewed: all that miss lie low.
+TEST_CASE("White noise on a mass with friction alone causes the variance of Fokker and Planck", "[long]") {
   constexpr double chance = 0.03;  // two standard errors of the mean of a thousand records
   Shaken shaken;
   // So soft that its force, some 0.01 N, is lost beside the friction; a mass must be held.
@@ -132,4 +133,4 @@ TEST_CASE("White noise on a mass with friction alone causes the variance of Fokk
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::random_excitation_test

@@ -9,7 +9,7 @@
 #include "tests/known_answers/random_network.hpp"
 
 // Networks drawn at random, from initial values drawn at random, against the independent integration.
-namespace frahm::transient {
+namespace frahm::transient::random_motions_test {
 namespace {
 
 using periodic::random_network, periodic::RandomNetwork;
@@ -116,7 +116,7 @@ TEST_CASE("Random networks shaken from random initial values move as the indepen
   }
 }
 
-TEST_CASE("Random networks in a run-up lose what they are given", "[slow]") {
+TEST_CASE("Random networks in a run-up lose what they are given", "[long]") {
   std::mt19937 random(20240613);
   for (int trial = 0; trial < 16; ++trial) {
     const RandomNetwork drawn = random_network({.masses = 1 + trial % 3,
@@ -141,4 +141,4 @@ TEST_CASE("Random networks in a run-up lose what they are given", "[slow]") {
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::random_motions_test

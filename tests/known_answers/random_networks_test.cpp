@@ -10,7 +10,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // What holds for every network: energy balance, stability, periodicity, extremes, symmetry, units.
-namespace frahm::periodic {
+namespace frahm::periodic::random_networks_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -216,4 +216,4 @@ TEST_CASE("A response does not depend on the frequencies visited before it") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::random_networks_test

@@ -8,6 +8,7 @@
 #include "solvers/tuning/stages/start_design.hpp"
 #include "tests/known_answers/random_tuning.hpp"
 
+namespace random_tunings_test {
 namespace {
 
 using namespace frahm;
@@ -140,7 +141,7 @@ void check_against_searches(unsigned number, std::uint64_t times) {
 
 // One of which the given start leads to a local optimum 71 % higher; one with limits that no design meets, in
 // two valleys.
-TEST_CASE("no search of the whole box finds a better design than a tuning from its map", "[slow]") {
+TEST_CASE("no search of the whole box finds a better design than a tuning from its map", "[long]") {
   for (const unsigned number : {1u, 60u}) check_against_searches(number, 10);
 }
 
@@ -200,3 +201,4 @@ TEST_CASE("where no design meets the limits the answer is the one that breaks th
 }
 
 }  // namespace
+}  // namespace random_tunings_test

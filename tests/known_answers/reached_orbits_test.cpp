@@ -5,7 +5,7 @@
 
 // Random systems of laws that are not monotone: stops on one and on both sides, springs with tables, static
 // friction, dampers with falling tables.
-namespace frahm::periodic {
+namespace frahm::periodic::reached_orbits_test {
 namespace {
 
 RandomNetwork draw(unsigned trial) {
@@ -65,4 +65,4 @@ TEST_CASE("In 300 systems, from 500 starts each, it misses few", "[.thorough]") 
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::reached_orbits_test

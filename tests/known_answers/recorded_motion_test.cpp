@@ -9,7 +9,7 @@
 #include "tests/known_answers/random_network.hpp"
 
 // Motions under records against closed forms, and against the independent integration of the same record.
-namespace frahm::transient {
+namespace frahm::transient::recorded_motion_test {
 namespace {
 
 using mechanics::ElementType, mechanics::ExcitationKind, mechanics::Network, mechanics::NetworkValues;
@@ -291,4 +291,4 @@ TEST_CASE("A record with further samples on its own lines moves every network al
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::recorded_motion_test

@@ -10,7 +10,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // The rig of DESIGN section 11 over its working range.
-namespace frahm::periodic {
+namespace frahm::periodic::rig_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -154,4 +154,4 @@ TEST_CASE("Friction that clamps the absorber leaves one mass of both, whatever i
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::rig_test

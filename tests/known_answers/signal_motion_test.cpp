@@ -7,7 +7,7 @@
 #include "solvers/transient/free_decay.hpp"
 
 // Signals of a motion from initial values, against the masses they are made of and closed forms.
-namespace frahm::transient {
+namespace frahm::transient::signal_motion_test {
 namespace {
 
 using mechanics::ElementType, mechanics::ExcitationKind, mechanics::Network, mechanics::NetworkValues;
@@ -134,4 +134,4 @@ TEST_CASE("in a run-up the motion relative to the base obeys its equation, the f
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::signal_motion_test

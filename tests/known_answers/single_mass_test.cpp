@@ -10,7 +10,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // The general path on one mass, against the closed forms.
-namespace frahm::periodic {
+namespace frahm::periodic::single_mass_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -233,4 +233,4 @@ TEST_CASE("Where Den Hartog's formula misleads, the orbit is the true one") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::single_mass_test

@@ -8,7 +8,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // Friction by a curve over the speed: x'' + 2 zeta x' + x + N(x') = cos(r tau).
-namespace frahm::periodic {
+namespace frahm::periodic::stribeck_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -130,4 +130,4 @@ TEST_CASE("Values of smooth laws that break a rule are refused by name") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::stribeck_test

@@ -11,6 +11,7 @@
 #include "solvers/tuning/optimum.hpp"
 #include "tests/known_answers/nishihara_asami.hpp"
 
+namespace tuned_stops_test {
 namespace {
 
 using namespace frahm;
@@ -157,7 +158,7 @@ double swept_worst(const Machine& machine, double f, double zeta, const tuning::
   return worst;
 }
 
-TEST_CASE("an absorber that hits its stops: no design of a dense grid has a lower worst peak", "[slow]") {
+TEST_CASE("an absorber that hits its stops: no design of a dense grid has a lower worst peak", "[long]") {
   const Machine machine{.damping = 0.04, .stops = {}};
   const tuning::Band band{0.8, 1.2};
   const Optimum optimum = tuned(absorber_behind_stops(machine, band));
@@ -176,3 +177,4 @@ TEST_CASE("an absorber that hits its stops: no design of a dense grid has a lowe
 }
 
 }  // namespace
+}  // namespace tuned_stops_test

@@ -7,6 +7,7 @@
 #include "solvers/tuning/optimum.hpp"
 #include "tests/known_answers/nishihara_asami.hpp"
 
+namespace tuning_test {
 namespace {
 
 using namespace frahm;
@@ -280,3 +281,4 @@ TEST_CASE("an optimum is the same to the last bit however often it is sought") {
 }
 
 }  // namespace
+}  // namespace tuning_test

@@ -9,7 +9,7 @@
 
 // Two-frequency forcing: the response without stops of Cheng and Zu, and a case that repeats only with the
 // full period.
-namespace frahm::periodic {
+namespace frahm::periodic::two_frequencies_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -75,4 +75,4 @@ TEST_CASE("Two frequencies of ratio 1/2 have no half-period symmetry and still b
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::two_frequencies_test

@@ -7,6 +7,7 @@
 #include "results/store_error.hpp"
 #include "temporary_directory.hpp"
 
+namespace test_checked_apart {
 using namespace frahm::results;
 using Catch::Contains;
 
@@ -43,3 +44,4 @@ TEST_CASE("a check is found again by its words") {
   CHECK_THROWS_AS(check_called({"result"}), std::invalid_argument);
   CHECK_THROWS_AS(check_called({"anything", "map.h5"}), std::invalid_argument);
 }
+}  // namespace test_checked_apart

@@ -15,6 +15,7 @@
 #include "results/map_writer.hpp"
 #include "temporary_directory.hpp"
 
+namespace test_chunks {
 using namespace frahm::results;
 
 namespace {
@@ -206,3 +207,4 @@ TEST_CASE("chunks encoded by several threads at once are those encoded by one") 
   }
   CHECK(same == std::vector<std::size_t>(threads, rounds));
 }
+}  // namespace test_chunks

@@ -10,6 +10,7 @@
 #include "sample.hpp"
 #include "temporary_directory.hpp"
 
+namespace test_data_reader {
 using namespace frahm::results;
 
 namespace {
@@ -110,3 +111,4 @@ TEST_CASE("what is no column of numbers is refused with its place and what there
   CHECK_THAT(complaint_about(reader, "operator"), Catch::Contains("/operator: must be numbers"));
   CHECK_THROWS_AS(DataReader(directory / "none.h5"), StoreError);
 }
+}  // namespace test_data_reader

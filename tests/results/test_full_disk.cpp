@@ -17,6 +17,7 @@
 #include "sample.hpp"
 #include "temporary_directory.hpp"
 
+namespace test_full_disk {
 #ifdef __SANITIZE_ADDRESS__
 namespace {
 bool is_child = false;
@@ -97,3 +98,4 @@ TEST_CASE("a disk that fills up is a StoreError at any write and leaves the file
   CHECK(enough.wait_status == 0);
   CHECK(enough.message.empty());
 }
+}  // namespace test_full_disk

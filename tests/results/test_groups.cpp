@@ -7,6 +7,7 @@
 #include "sample.hpp"
 #include "temporary_directory.hpp"
 
+namespace test_groups {
 using namespace frahm::results;
 
 namespace {
@@ -88,3 +89,4 @@ TEST_CASE("a group may have texts beside its numbers") {
   CHECK(reader.texts("optimum") ==
         std::vector<Text>{{"stopped", "the certificate gap is below its tolerance"}});
 }
+}  // namespace test_groups

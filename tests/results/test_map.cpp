@@ -14,6 +14,7 @@
 #include "temporary_directory.hpp"
 #include "whole_map.hpp"
 
+namespace test_map {
 using namespace frahm::results;
 
 namespace {
@@ -249,3 +250,4 @@ TEST_CASE("a finished file replaces the one before in one step and leaves no par
   CHECK_NOTHROW(before.read(sample::peak, origin, whole));  // the old file lives on for who has it open
   CHECK(directory.parts() == 0);
 }
+}  // namespace test_map

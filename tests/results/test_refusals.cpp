@@ -19,6 +19,7 @@
 #include "temporary_directory.hpp"
 #include "whole_map.hpp"
 
+namespace test_refusals {
 using namespace frahm::results;
 using Catch::Matchers::Contains;
 using Catch::Matchers::Message;
@@ -374,3 +375,4 @@ TEST_CASE("a damaged chunk is an error, not a wrong number") {
   CHECK_THAT(refusal([&] { reader.check_data(Completeness::whole); }),
              Contains("map.h5:/x: cannot read") && Contains("Fletcher32"));
 }
+}  // namespace test_refusals

@@ -13,6 +13,7 @@
 #include "sample.hpp"
 #include "temporary_directory.hpp"
 
+namespace test_report {
 using namespace frahm::results;
 
 namespace {
@@ -134,3 +135,4 @@ TEST_CASE("the page stands around its data") {
 }
 
 }  // namespace
+}  // namespace test_report

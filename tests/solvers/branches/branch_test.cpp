@@ -10,7 +10,7 @@
 #include "solvers/orbits/closed_forms.hpp"
 #include "solvers/response/periodic_response.hpp"
 
-namespace frahm::periodic {
+namespace frahm::periodic::branch_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -284,4 +284,4 @@ TEST_CASE("A branch stops after as many points as are wanted") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::branch_test

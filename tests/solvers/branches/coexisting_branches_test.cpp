@@ -8,7 +8,7 @@
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/response/periodic_response.hpp"
 
-namespace frahm::periodic {
+namespace frahm::periodic::coexisting_branches_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -179,4 +179,4 @@ TEST_CASE("A system of one response has one branch, followed once") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::coexisting_branches_test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-namespace frahm::periodic {
+namespace frahm::periodic::box_minimum_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -69,4 +69,4 @@ TEST_CASE("Beyond all limits together every contact stands at its own") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::box_minimum_test

@@ -7,7 +7,7 @@
 
 #include "solvers/algebra/null_space.hpp"
 
-namespace frahm::periodic {
+namespace frahm::periodic::least_shares_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -75,4 +75,4 @@ TEST_CASE("The shares of contacts in loops are the least from wherever they are 
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::least_shares_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace frahm::periodic {
+namespace frahm::periodic::rest_problem_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -69,4 +69,4 @@ TEST_CASE("The rounding of a rate lets no contact slide that the others hold") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::rest_problem_test

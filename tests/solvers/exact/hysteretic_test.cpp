@@ -6,7 +6,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // Hysteretic (structural) damping, k (1 + i eta) at omega_h.
-namespace frahm::periodic {
+namespace frahm::periodic::hysteretic_test {
 namespace {
 
 using namespace mechanics;
@@ -117,4 +117,4 @@ TEST_CASE("A hysteretic element beside friction is the spring and the damper eta
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::hysteretic_test

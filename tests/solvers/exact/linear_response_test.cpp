@@ -7,7 +7,7 @@
 #include "tests/known_answers/rig.hpp"
 
 // Systems without friction against complex amplitudes.
-namespace frahm::periodic {
+namespace frahm::periodic::linear_response_test {
 namespace {
 
 using namespace mechanics;
@@ -132,4 +132,4 @@ TEST_CASE("The rig without friction is its two equations of motion, solved by ha
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::linear_response_test

@@ -6,7 +6,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // Maxwell elements against their complex stiffness  k i w / (i w + k/c)  (Tschoegl 1989, ch. 3).
-namespace frahm::periodic {
+namespace frahm::periodic::maxwell_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -157,4 +157,4 @@ TEST_CASE("Maxwell values must be positive") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::maxwell_test

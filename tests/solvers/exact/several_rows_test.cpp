@@ -9,7 +9,7 @@
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 
-namespace frahm::periodic {
+namespace frahm::periodic::several_rows_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -214,4 +214,4 @@ TEST_CASE("An orbit that only just touches its stops is stable where disturbance
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::several_rows_test

@@ -6,7 +6,7 @@
 
 // Systems with tables have the guards of their contacts as series of their own, so that the search for events
 // need not expand the whole state. The plain way is by the state's expansion.
-namespace frahm::periodic {
+namespace frahm::periodic::guard_series_test {
 namespace {
 
 constexpr int kAny = Eigen::Dynamic;
@@ -71,4 +71,4 @@ TEST_CASE("The series of a guard is that of the expanded state, whatever sticks 
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::guard_series_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace frahm::periodic {
+namespace frahm::periodic::polynomial_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -89,4 +89,4 @@ TEST_CASE("Deflation divides a known root at zero out") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::polynomial_test

@@ -6,7 +6,7 @@
 
 // Large systems take their Taylor series from the equation of motion, small ones from tables. Both are the
 // same flow.
-namespace frahm::periodic {
+namespace frahm::periodic::sparse_system_test {
 namespace {
 
 constexpr int kAny = Eigen::Dynamic;
@@ -104,4 +104,4 @@ TEST_CASE("A tangent that is moved in long steps is that of single steps") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::sparse_system_test

@@ -12,7 +12,7 @@
 #include "tests/solvers/coverage.hpp"
 
 // Energy balance, hysteresis loops and added masses, on responses that the engine makes.
-namespace frahm::identification {
+namespace frahm::identification::energy_loss_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel, Catch::Matchers::Contains;
@@ -375,4 +375,4 @@ TEST_CASE("Added masses that tell nothing are refused") {
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::energy_loss_test

@@ -11,7 +11,7 @@
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/coverage.hpp"
 
-namespace frahm::identification {
+namespace frahm::identification::forced_resonance_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel, Catch::Matchers::Contains;
@@ -191,4 +191,4 @@ TEST_CASE("Where the response scatters a note says that slope and damping are to
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::forced_resonance_test

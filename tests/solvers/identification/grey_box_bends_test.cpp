@@ -9,7 +9,7 @@
 
 // Stops, tables and static friction found again in motions that were made with them: the derivative of a
 // motion goes through its touches and releases.
-namespace frahm::identification {
+namespace frahm::identification::grey_box_bends_test {
 namespace {
 
 using mechanics::ElementType, mechanics::ExcitationKind, mechanics::Network, mechanics::Node,
@@ -232,4 +232,4 @@ TEST_CASE("A clearance that the motion does not reach is not determined upwards"
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::grey_box_bends_test

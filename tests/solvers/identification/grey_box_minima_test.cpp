@@ -8,7 +8,7 @@
 
 // Grey boxes where the sum of squares has several minima or none to be found, and what they say of their
 // fits.
-namespace frahm::identification {
+namespace frahm::identification::grey_box_minima_test {
 namespace {
 
 // The rig's absorber by itself: 3 N s/m, 10985.1 N/m and 15 N, released from 30 mm; at rest after 1.2 s.
@@ -74,7 +74,7 @@ bool has_note(const Identification& found, const std::string& part) {
 constexpr double kAlike = 0.01;  // of a sum of squares that has a standard deviation of 39: the same minimum
 
 // Fits that only grow along the record end with another number of half swings in a third of these.
-TEST_CASE("A noisy decay that has come to rest is fitted as well from afar as from the truth", "[slow]") {
+TEST_CASE("A noisy decay that has come to rest is fitted as well from afar as from the truth", "[long]") {
   constexpr double kDisplacement = 1e-4, kVelocity = 3e-2;
   for (unsigned seed = 0; seed < 20; ++seed) {
     const TimeRecord record = decay(kTruth, kDisplacement, kVelocity, seed);
@@ -239,4 +239,4 @@ TEST_CASE("A wrong model is told by what it misses and by residuals that follow 
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::grey_box_minima_test

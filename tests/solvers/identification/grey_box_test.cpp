@@ -10,7 +10,7 @@
 #include "tests/solvers/fitted_motions.hpp"
 
 // Grey boxes: parameters found again in motions that were made with them.
-namespace frahm::identification {
+namespace frahm::identification::grey_box_test {
 namespace {
 
 constexpr double kFound = 1e-10;  // relative, of parameters from motions without noise
@@ -167,7 +167,7 @@ TEST_CASE("Each record has a release of its own, the parameters are common to al
   }
 }
 
-TEST_CASE("The stated intervals cover each parameter in at least 90 of 100 noisy records", "[slow]") {
+TEST_CASE("The stated intervals cover each parameter in at least 90 of 100 noisy records", "[long]") {
   const mechanics::Network network = kOscillator.network();
   const TimeRecord clean = displacements("decay", MotionKind::free, network, kReleased, 7.0, 700);
   std::mt19937 random(20261123);
@@ -311,4 +311,4 @@ TEST_CASE("A start without a meaning is refused") {
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::grey_box_test

@@ -10,7 +10,7 @@
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/coverage.hpp"
 
-namespace frahm::identification {
+namespace frahm::identification::half_power_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel, Catch::Matchers::Contains;
@@ -234,4 +234,4 @@ TEST_CASE("A curve or a table that tells no damping says why") {
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::half_power_test

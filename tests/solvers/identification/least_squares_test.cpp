@@ -7,6 +7,7 @@
 
 #include "solvers/identification/identification.hpp"
 
+namespace least_squares_test {
 namespace {
 
 using namespace frahm::identification;
@@ -166,3 +167,4 @@ TEST_CASE("the fit quality is 100 where all is met and 0 where a constant does a
 }
 
 }  // namespace
+}  // namespace least_squares_test

@@ -12,7 +12,7 @@
 #include "tests/solvers/coverage.hpp"
 
 // Methods for free vibration, on decays that the engine makes.
-namespace frahm::identification {
+namespace frahm::identification::measured_decay_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel, Catch::Matchers::Contains;
@@ -363,4 +363,4 @@ TEST_CASE("A table of turning points with a hole is refused by the times, and ca
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::measured_decay_test

@@ -6,7 +6,7 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "tests/known_answers/rig.hpp"
 
-namespace frahm::mechanics {
+namespace frahm::mechanics::assembly_test {
 namespace {
 
 using Catch::Matchers::Contains;
@@ -154,4 +154,4 @@ TEST_CASE("An element that joins no moving node is refused") {
 }
 
 }  // namespace
-}  // namespace frahm::mechanics
+}  // namespace frahm::mechanics::assembly_test

@@ -8,7 +8,7 @@
 
 #include "tests/known_answers/responses.hpp"
 
-namespace frahm::mechanics {
+namespace frahm::mechanics::crank_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -137,4 +137,4 @@ TEST_CASE("A crank cut at the first order is a harmonic motion") {
 }
 
 }  // namespace
-}  // namespace frahm::mechanics
+}  // namespace frahm::mechanics::crank_test

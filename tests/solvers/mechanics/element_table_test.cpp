@@ -6,7 +6,7 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 
-namespace frahm::mechanics {
+namespace frahm::mechanics::element_table_test {
 namespace {
 
 using Catch::WithinAbs;
@@ -124,4 +124,4 @@ TEST_CASE("A massless node that a spring and a slider meet in is told of the jen
 }
 
 }  // namespace
-}  // namespace frahm::mechanics
+}  // namespace frahm::mechanics::element_table_test

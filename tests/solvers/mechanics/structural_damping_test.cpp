@@ -13,7 +13,7 @@
 #include "tests/solvers/nonstop/two_ways.hpp"
 
 // Damping of the structure: [damping] modal and rayleigh.
-namespace frahm::mechanics {
+namespace frahm::mechanics::structural_damping_test {
 namespace {
 
 using periodic::Measure;
@@ -233,4 +233,4 @@ TEST_CASE("A decay and a transient account for what the structure dissipates") {
 }
 
 }  // namespace
-}  // namespace frahm::mechanics
+}  // namespace frahm::mechanics::structural_damping_test

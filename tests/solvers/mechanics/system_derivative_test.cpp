@@ -7,7 +7,7 @@
 #include "tests/known_answers/random_network.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
 
-namespace frahm::mechanics {
+namespace frahm::mechanics::system_derivative_test {
 namespace {
 
 using periodic::all_parameters;
@@ -173,4 +173,4 @@ TEST_CASE("A hysteretic element whose frequency is given has a derivative by it,
 }
 
 }  // namespace
-}  // namespace frahm::mechanics
+}  // namespace frahm::mechanics::system_derivative_test

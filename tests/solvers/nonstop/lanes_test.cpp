@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+namespace lanes_test {
 // The functions of sixteen numbers at once, beside those of the standard library.
 namespace {
 
@@ -56,3 +57,4 @@ TEST_CASE("floor and the lanes' choice are exact") {
 }
 
 }  // namespace
+}  // namespace lanes_test

@@ -12,7 +12,7 @@
 #include "tests/solvers/nonstop/two_ways.hpp"
 
 // Orbits from the phases of their events, beside the same by shooting.
-namespace frahm::periodic {
+namespace frahm::periodic::nonstop_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -343,4 +343,4 @@ TEST_CASE("a row whose friction changes has the orbits of its points") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::nonstop_test

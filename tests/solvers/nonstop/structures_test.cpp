@@ -9,7 +9,7 @@
 #include "tests/solvers/nonstop/two_ways.hpp"
 
 // Buildings whose contacts all slide: many reversals, of which some follow others at once.
-namespace frahm::periodic {
+namespace frahm::periodic::structures_test {
 namespace {
 
 constexpr double kSame = 1e-10;  // of values, as difference() takes it
@@ -102,4 +102,4 @@ TEST_CASE("A building's point has the same values alone and in any company") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::structures_test

@@ -10,7 +10,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // Multipliers, contraction and error bound of orbits.
-namespace frahm::periodic {
+namespace frahm::periodic::certificate_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -92,4 +92,4 @@ TEST_CASE("The bound holds where a contact is held far beyond its load") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::certificate_test

@@ -7,7 +7,7 @@
 
 #include "solvers/events/box_minimum.hpp"
 
-namespace frahm::periodic {
+namespace frahm::periodic::contact_cuts_test {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
@@ -75,4 +75,4 @@ TEST_CASE("Contacts carry a load exactly where no cut carries more than its limi
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::contact_cuts_test

@@ -7,7 +7,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // Orbits one after the other along the frequency.
-namespace frahm::periodic {
+namespace frahm::periodic::continuation_test {
 namespace {
 
 constexpr double kSameOrbit = 1e-10;  // of the energy norm
@@ -99,4 +99,4 @@ TEST_CASE("A new row starts from the start of the one before it") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::continuation_test

@@ -10,7 +10,7 @@
 
 // The search for an orbit of a large system keeps the derivative of the period map from orbit to orbit. What
 // it finds does not depend on that.
-namespace frahm::periodic {
+namespace frahm::periodic::kept_derivative_test {
 namespace {
 
 constexpr double kSame = 1e-9;  // of a peak: residuals of 1e-12 over 1 - contraction
@@ -101,4 +101,4 @@ TEST_CASE("A row of a building with stops has the orbits that its points have al
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::kept_derivative_test

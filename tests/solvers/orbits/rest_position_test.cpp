@@ -6,7 +6,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // Contacts that never slide: their rest position is that of least (1/2) q^T K q with |lambda_j(t)| <= F_j.
-namespace frahm::periodic {
+namespace frahm::periodic::rest_position_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -134,4 +134,4 @@ TEST_CASE("The rig with a clamped absorber moves as one mass, followed in freque
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::rest_position_test

@@ -10,7 +10,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // The work that a search may take.
-namespace frahm::periodic {
+namespace frahm::periodic::search_work_test {
 namespace {
 
 // One mass with friction near its resonance, whose orbit takes several passages.
@@ -108,4 +108,4 @@ TEST_CASE("A search for several orbits that is ended tells those it found, or wh
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::search_work_test

@@ -8,7 +8,7 @@
 #include "tests/known_answers/single_mass.hpp"
 
 // The seven points at which switching between sticking and sliding can go wrong.
-namespace frahm::periodic {
+namespace frahm::periodic::switching_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -238,4 +238,4 @@ TEST_CASE("Elements between the same two nodes share their contact's force in pr
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::switching_test

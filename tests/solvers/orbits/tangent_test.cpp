@@ -6,7 +6,7 @@
 #include "tests/known_answers/random_network.hpp"
 
 // The derivative of the flow through its events, product of flow and saltation matrices, against differences.
-namespace frahm::periodic {
+namespace frahm::periodic::tangent_test {
 namespace {
 
 constexpr double kAgreement = 1e-6;  // relative to the largest entry, in the energy norm's scaling
@@ -144,4 +144,4 @@ TEST_CASE("The distance of two motions never grows in the energy norm") {
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::tangent_test

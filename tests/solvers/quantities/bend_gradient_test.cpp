@@ -9,7 +9,7 @@
 
 // Exact derivatives of responses whose elements bend, or stick harder than they slide, against differences of
 // responses solved anew.
-namespace frahm::periodic {
+namespace frahm::periodic::bend_gradient_test {
 namespace {
 
 using laws::damper_bend, laws::elastic_stop, laws::spring_bend;
@@ -272,4 +272,4 @@ TEST_CASE("Two damped stops that are hit at one instant leave no derivative, two
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::bend_gradient_test

@@ -8,7 +8,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Exact derivatives of periodic responses against those of closed forms.
-namespace frahm::periodic {
+namespace frahm::periodic::gradient_closed_forms_test {
 namespace {
 
 using mechanics::Network;
@@ -116,4 +116,4 @@ TEST_CASE("The natural frequency and its damping have the derivatives of sqrt(k/
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::gradient_closed_forms_test

@@ -9,7 +9,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Where a periodic response, or one quantity of it, has no derivative.
-namespace frahm::periodic {
+namespace frahm::periodic::gradient_limits_test {
 namespace {
 
 using mechanics::ElementType;
@@ -127,4 +127,4 @@ TEST_CASE("Counts, flags and figures of the computation have no derivative and s
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::gradient_limits_test

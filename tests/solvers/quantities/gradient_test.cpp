@@ -9,7 +9,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Exact derivatives of periodic responses against differences of responses solved anew.
-namespace frahm::periodic {
+namespace frahm::periodic::gradient_test {
 namespace {
 
 using mechanics::ElementType;
@@ -251,4 +251,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::gradient_test

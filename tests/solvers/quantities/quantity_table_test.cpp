@@ -9,6 +9,7 @@
 
 #include "solvers/orbits/orbit.hpp"
 
+namespace quantity_table_test {
 // The one table of quantities, against the page of the format and against itself.
 namespace {
 
@@ -126,3 +127,4 @@ TEST_CASE("By its name alone a quantity is shown where any of its kind is") {
   CHECK_FALSE(is_shown("status_compared"));
   CHECK_FALSE(is_shown("residual"));
 }
+}  // namespace quantity_table_test

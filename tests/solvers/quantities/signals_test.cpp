@@ -14,7 +14,7 @@
 #include "tests/solvers/nonstop/two_ways.hpp"
 
 // Signals, combinations of coordinates, beside what they are made of.
-namespace frahm::periodic {
+namespace frahm::periodic::signals_test {
 namespace {
 
 using mechanics::Network;
@@ -347,4 +347,4 @@ TEST_CASE("a history has displacement, velocity and acceleration of each signal"
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::signals_test

@@ -13,7 +13,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Excitations whose orders have a common divisor.
-namespace frahm::periodic {
+namespace frahm::periodic::common_divisor_test {
 namespace {
 
 using Catch::WithinAbs;
@@ -244,4 +244,4 @@ TEST_CASE("A mass that sticks under order 30 alone rests where it does under ord
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::common_divisor_test

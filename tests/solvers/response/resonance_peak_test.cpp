@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace frahm::periodic {
+namespace frahm::periodic::resonance_peak_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -138,4 +138,4 @@ TEST_CASE("a coarse grid does not choose between two modes of nearly one height"
 }
 
 }  // namespace
-}  // namespace frahm::periodic
+}  // namespace frahm::periodic::resonance_peak_test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+namespace distribution_test {
 namespace {
 
 using frahm::kInfinity;
@@ -102,3 +103,4 @@ TEST_CASE("uniform and triangular numbers have the moments of their closed forms
 }
 
 }  // namespace
+}  // namespace distribution_test

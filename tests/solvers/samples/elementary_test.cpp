@@ -10,7 +10,7 @@
 #include "solvers/samples/sequence.hpp"
 #include "tests/solvers/bits.hpp"
 
-namespace frahm::samples {
+namespace frahm::samples::elementary_test {
 namespace {
 
 using Kind = Distribution::Kind;
@@ -77,4 +77,4 @@ TEST_CASE("a seed gives samples of the same bits on every machine") {
 }
 
 }  // namespace
-}  // namespace frahm::samples
+}  // namespace frahm::samples::elementary_test

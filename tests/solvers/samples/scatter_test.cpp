@@ -10,6 +10,7 @@
 #include "solvers/samples/distribution.hpp"
 #include "solvers/samples/sequence.hpp"
 
+namespace scatter_test {
 namespace {
 
 using namespace frahm::samples;
@@ -113,3 +114,4 @@ TEST_CASE("numbers that move as one, or do not move, are drawn too; an impossibl
 }
 
 }  // namespace
+}  // namespace scatter_test

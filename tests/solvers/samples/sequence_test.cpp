@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+namespace sequence_test {
 namespace {
 
 using namespace frahm::samples;
@@ -102,3 +103,4 @@ TEST_CASE("Sobol's points find a known mean with a twentieth of the error of ran
 }
 
 }  // namespace
+}  // namespace sequence_test

@@ -7,7 +7,7 @@
 #include "tests/known_answers/arctan.hpp"
 #include "tests/known_answers/rig.hpp"
 
-namespace frahm::smooth {
+namespace frahm::smooth::smooth_test {
 namespace {
 
 // The rig under the arctan law with moderate friction.
@@ -128,4 +128,4 @@ TEST_CASE("a tolerance below rounding fails with a reason") {
 }
 
 }  // namespace
-}  // namespace frahm::smooth
+}  // namespace frahm::smooth::smooth_test

@@ -10,7 +10,7 @@
 #include "solvers/transient/free_decay.hpp"
 
 // Motions from initial values of elements that bend, and of friction that sticks harder than it slides.
-namespace frahm::transient {
+namespace frahm::transient::bends_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -203,4 +203,4 @@ TEST_CASE("A mass that sticks harder than it slides is let go by its static limi
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::bends_test

@@ -11,7 +11,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Peaks of motions under records and their derivatives, against differences of peaks computed anew.
-namespace frahm::transient {
+namespace frahm::transient::displacement_sensitivity_test {
 namespace {
 
 using mechanics::ElementType, mechanics::ExcitationKind, mechanics::Network, mechanics::NetworkValues;
@@ -186,4 +186,4 @@ TEST_CASE("A harmonic beside the records, and a direction that changes the frequ
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::displacement_sensitivity_test

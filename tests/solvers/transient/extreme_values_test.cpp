@@ -3,7 +3,7 @@
 #include "solvers/transient/free_decay.hpp"
 
 // Values of a size that no machine has: refused with their reason, never a crash.
-namespace frahm::transient {
+namespace frahm::transient::extreme_values_test {
 namespace {
 
 using mechanics::ElementType, mechanics::Network, mechanics::NetworkValues, mechanics::Node,
@@ -34,4 +34,4 @@ TEST_CASE("A decay that is too stiff to be followed far has its energies all the
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::extreme_values_test

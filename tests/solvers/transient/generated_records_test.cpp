@@ -10,7 +10,7 @@
 #include "tests/solvers/bits.hpp"
 
 // Random records against the closed forms of their densities, each within the interval of its ensemble.
-namespace frahm::transient {
+namespace frahm::transient::generated_records_test {
 namespace {
 
 using samples::NormalNumbers;
@@ -192,4 +192,4 @@ TEST_CASE("A seed gives records of the same bits on every machine") {
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::generated_records_test

@@ -6,7 +6,7 @@
 #include "solvers/transient/forced_motion.hpp"
 
 // The quantities of forced motions against closed forms and densely sampled histories.
-namespace frahm::transient {
+namespace frahm::transient::motion_quantities_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
@@ -239,4 +239,4 @@ TEST_CASE("A run-up tells the peaks of its finest stairs and their error") {
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::motion_quantities_test

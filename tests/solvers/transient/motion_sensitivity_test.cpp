@@ -12,7 +12,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Exact derivatives of motions from initial values against differences of motions simulated anew.
-namespace frahm::identification {
+namespace frahm::identification::motion_sensitivity_test {
 namespace {
 
 using mechanics::ElementType;
@@ -380,4 +380,4 @@ TEST_CASE("So are those of a response of two periods against a damped stop") {
 }
 
 }  // namespace
-}  // namespace frahm::identification
+}  // namespace frahm::identification::motion_sensitivity_test

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-namespace frahm::transient {
+namespace frahm::transient::record_facts_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -37,4 +37,4 @@ TEST_CASE("A support's velocity leaves it displaced, and forces are not integrat
 }
 
 }  // namespace
-}  // namespace frahm::transient
+}  // namespace frahm::transient::record_facts_test

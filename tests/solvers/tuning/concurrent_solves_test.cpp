@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+namespace concurrent_solves_test {
 // Solves in several threads of a process of its own, which a crash would end.
 namespace {
 
@@ -42,3 +43,4 @@ TEST_CASE("a process that ends with exit code 0 before its work is done is told 
 }
 
 }  // namespace
+}  // namespace concurrent_solves_test

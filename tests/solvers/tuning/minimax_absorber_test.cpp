@@ -9,7 +9,7 @@
 
 // The least highest peak of an undamped mass with an absorber, in epigraph form: many constraints, few of
 // them active, which is the form of every minimax tuning.
-namespace frahm::tuning {
+namespace frahm::tuning::minimax_absorber_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -135,4 +135,4 @@ TEST_CASE("the least highest peak of an absorber is that of Nishihara and Asami"
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::minimax_absorber_test

@@ -18,6 +18,7 @@
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
+namespace assemble_test {
 namespace {
 
 using namespace frahm::studies;
@@ -298,3 +299,4 @@ TEST_CASE("an assembly that takes longer than a second shows its progress, and a
 }
 
 }  // namespace
+}  // namespace assemble_test

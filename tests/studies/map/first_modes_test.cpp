@@ -8,6 +8,7 @@
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
+namespace first_modes_test {
 namespace {
 
 using namespace frahm::studies;
@@ -66,3 +67,4 @@ TEST_CASE("the modes name the masses of their shapes, and the point, the first o
 }
 
 }  // namespace
+}  // namespace first_modes_test

@@ -7,6 +7,7 @@
 #include "tests/studies/small_studies.hpp"
 #include "tests/study_path.hpp"
 
+namespace grid_test {
 namespace {
 
 using namespace frahm::studies;
@@ -160,3 +161,4 @@ TEST_CASE("A map of more tiles than can be kept track of is refused at once") {
 }
 
 }  // namespace
+}  // namespace grid_test

@@ -7,6 +7,7 @@
 #include "studies/map/map_record.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace known_digits_test {
 namespace {
 
 using namespace frahm::studies;
@@ -81,3 +82,4 @@ TEST_CASE("a study of full precision keeps every bit") {
 }
 
 }  // namespace
+}  // namespace known_digits_test

@@ -7,6 +7,7 @@
 #include "studies/map/map_plan.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace map_kernel_test {
 namespace {
 
 using namespace frahm::studies;
@@ -202,3 +203,4 @@ TEST_CASE("the bytes of a tile with a comparison do not depend on what its kerne
 }
 
 }  // namespace
+}  // namespace map_kernel_test

@@ -6,6 +6,7 @@
 #include "studies/motion/motion_record.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace motion_kernel_test {
 namespace {
 
 using namespace frahm::studies;
@@ -101,3 +102,4 @@ TEST_CASE("a map of few motions has a tile for each thread, one of many cheap mo
 }
 
 }  // namespace
+}  // namespace motion_kernel_test

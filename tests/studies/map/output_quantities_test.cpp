@@ -4,6 +4,7 @@
 
 #include "tests/studies/small_studies.hpp"
 
+namespace output_quantities_test {
 namespace {
 
 using namespace frahm::studies;
@@ -115,3 +116,4 @@ TEST_CASE("a profile may only be of masses whose peaks are recorded, unless nobo
 }
 
 }  // namespace
+}  // namespace output_quantities_test

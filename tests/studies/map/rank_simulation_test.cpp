@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 
+namespace rank_simulation_test {
 namespace {
 
 using namespace frahm::studies;
@@ -118,3 +119,4 @@ TEST_CASE("ten million tiles on a thousand ranks take seconds to simulate") {
 }
 
 }  // namespace
+}  // namespace rank_simulation_test

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+namespace regime_crossings_test {
 namespace {
 
 using namespace frahm::studies;
@@ -192,3 +193,4 @@ TEST_CASE("the briefest event is the shortest stop or slide, also where it spans
 }
 
 }  // namespace
+}  // namespace regime_crossings_test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+namespace tile_record_test {
 namespace {
 
 using namespace frahm::studies;
@@ -73,3 +74,4 @@ TEST_CASE("a record cut short anywhere but between failed points is refused") {
 }
 
 }  // namespace
+}  // namespace tile_record_test

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+namespace value_match_test {
 namespace {
 
 using frahm::studies::match_values;
@@ -88,3 +89,4 @@ TEST_CASE("values that differ by more than rounding are not the same, however ne
 }
 
 }  // namespace
+}  // namespace value_match_test

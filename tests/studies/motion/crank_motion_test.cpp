@@ -8,7 +8,7 @@
 
 #include "tests/study_path.hpp"
 
-namespace frahm::studies {
+namespace frahm::studies::crank_motion_test {
 namespace {
 
 const results::Column& column(const std::vector<results::Column>& columns, const std::string& name) {
@@ -78,4 +78,4 @@ TEST_CASE("Two cranks on one node, without units, have names of their own") {
 }
 
 }  // namespace
-}  // namespace frahm::studies
+}  // namespace frahm::studies::crank_motion_test

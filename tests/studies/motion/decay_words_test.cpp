@@ -5,6 +5,7 @@
 #include "studies/motion/motion_record.hpp"
 #include "studies/reading/study.hpp"
 
+namespace decay_words_test {
 namespace {
 
 using namespace frahm::studies;
@@ -33,3 +34,4 @@ TEST_CASE("A decay that friction stops is never said never to arrive") {
 }
 
 }  // namespace
+}  // namespace decay_words_test

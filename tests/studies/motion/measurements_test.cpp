@@ -7,6 +7,7 @@
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/data_export.hpp"
 
+namespace measurements_test {
 namespace {
 
 using namespace frahm::studies;
@@ -136,3 +137,4 @@ TEST_CASE("what cannot be measured is refused with what can") {
 }
 
 }  // namespace
+}  // namespace measurements_test

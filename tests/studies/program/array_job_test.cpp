@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
+namespace array_job_test {
 namespace {
 
 using namespace frahm::studies;
@@ -48,3 +49,4 @@ TEST_CASE("MaxArraySize is read from Slurm's configuration") {
 }
 
 }  // namespace
+}  // namespace array_job_test

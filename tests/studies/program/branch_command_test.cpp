@@ -10,6 +10,7 @@
 #include "tests/results/temporary_directory.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace branch_command_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -120,3 +121,4 @@ TEST_CASE("a range or start that is wrong is told in the study's unit") {
 }
 
 }  // namespace
+}  // namespace branch_command_test

@@ -20,6 +20,7 @@
 #include "tests/studies/small_tunings.hpp"
 #include "tests/study_path.hpp"
 
+namespace check_command_test {
 namespace {
 
 using frahm::studies::check_command;
@@ -267,3 +268,4 @@ TEST_CASE("Points that fail in a sample are counted and the first is named") {
 }
 
 }  // namespace
+}  // namespace check_command_test

@@ -12,6 +12,7 @@
 #include "studies/reading/units.hpp"
 #include "studies/tuning/outcome_words.hpp"
 
+namespace explain_command_test {
 namespace {
 
 using namespace frahm::studies;
@@ -94,3 +95,4 @@ TEST_CASE("a unit is explained with every quantity that may have it, as the read
   CHECK_THAT(explained("K"), Catch::Contains("a temperature"));
   CHECK_THAT(explained("force"), !Catch::Contains("unit of"));
 }
+}  // namespace explain_command_test

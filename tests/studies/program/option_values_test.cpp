@@ -6,6 +6,7 @@
 
 #include "studies/reading/study_source.hpp"
 
+namespace option_values_test {
 namespace {
 
 using namespace frahm::studies;
@@ -101,3 +102,4 @@ TEST_CASE("a value that is not possible is told in our words, with the nearest w
 }
 
 }  // namespace
+}  // namespace option_values_test

@@ -16,6 +16,7 @@
 #include "tests/studies/small_studies.hpp"
 #include "tests/study_path.hpp"
 
+namespace point_command_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -241,3 +242,4 @@ TEST_CASE("the report of a large building has four floors, four elements and mod
 }
 
 }  // namespace
+}  // namespace point_command_test

@@ -12,6 +12,7 @@
 #include "studies/reading/settings.hpp"
 #include "tests/study_path.hpp"
 
+namespace point_gradient_test {
 namespace {
 
 using frahm::periodic::DerivativeCheck;
@@ -134,3 +135,4 @@ TEST_CASE("At grazing a point says why it has no derivatives") {
 }
 
 }  // namespace
+}  // namespace point_gradient_test

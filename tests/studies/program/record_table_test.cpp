@@ -9,6 +9,7 @@
 
 #include "tests/studies/temporary_folder.hpp"
 
+namespace record_table_test {
 namespace {
 
 using namespace frahm::studies;
@@ -76,3 +77,4 @@ TEST_CASE("Records of an axis have a line each, the first twelve") {
 }
 
 }  // namespace
+}  // namespace record_table_test

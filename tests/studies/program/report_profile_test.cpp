@@ -4,6 +4,7 @@
 
 #include "tests/studies/small_studies.hpp"
 
+namespace report_profile_test {
 namespace {
 
 using namespace frahm::studies;
@@ -57,3 +58,4 @@ TEST_CASE("a profile is drawn from the peaks and strokes that are recorded") {
 }
 
 }  // namespace
+}  // namespace report_profile_test

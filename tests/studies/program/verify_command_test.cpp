@@ -7,6 +7,7 @@
 
 #include "studies/program/verify_cases.hpp"
 
+namespace verify_command_test {
 namespace {
 
 using frahm::studies::verify_command;
@@ -42,3 +43,4 @@ TEST_CASE("A classical case fails for a deviation, a missing value, a wrong regi
 }
 
 }  // namespace
+}  // namespace verify_command_test

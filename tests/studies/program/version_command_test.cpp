@@ -6,6 +6,7 @@
 
 #include "studies/record/build_facts.hpp"
 
+namespace version_command_test {
 namespace {
 
 using frahm::studies::build_facts;
@@ -37,3 +38,4 @@ TEST_CASE("The version is a line of its own, and more is told when asked for") {
 }
 
 }  // namespace
+}  // namespace version_command_test

@@ -5,6 +5,7 @@
 #include "studies/map/row_solver.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace response_rows_test {
 namespace {
 
 using namespace frahm;
@@ -81,3 +82,4 @@ TEST_CASE("quantities are called by names and patterns and unknown ones get the 
 }
 
 }  // namespace
+}  // namespace response_rows_test

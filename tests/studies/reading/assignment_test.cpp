@@ -6,6 +6,7 @@
 
 #include "tests/study_path.hpp"
 
+namespace assignment_test {
 namespace {
 
 using namespace frahm::studies;
@@ -82,3 +83,4 @@ TEST_CASE("a point out of range is told with the value's place in the study") {
 }
 
 }  // namespace
+}  // namespace assignment_test

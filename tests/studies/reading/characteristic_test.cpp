@@ -9,6 +9,7 @@
 #include "solvers/laws/spring_bend.hpp"
 #include "studies/reading/study.hpp"
 
+namespace characteristic_test {
 namespace {
 
 using namespace frahm;
@@ -181,3 +182,4 @@ TEST_CASE("a sweep and the response it is compared with are each one of largest,
 }
 
 }  // namespace
+}  // namespace characteristic_test

@@ -6,6 +6,7 @@
 #include "studies/reading/study_source.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
+namespace csv_table_test {
 namespace {
 
 using namespace frahm::studies;
@@ -94,3 +95,4 @@ TEST_CASE("what is no table of texts is refused with its line") {
 }
 
 }  // namespace
+}  // namespace csv_table_test

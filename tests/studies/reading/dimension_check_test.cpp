@@ -3,6 +3,7 @@
 
 #include "studies/reading/study.hpp"
 
+namespace dimension_check_test {
 namespace {
 
 using frahm::studies::parse_study;
@@ -50,3 +51,4 @@ TEST_CASE("dimensions are not checked where there are none") {
 }
 
 }  // namespace
+}  // namespace dimension_check_test

@@ -7,6 +7,7 @@
 #include "studies/reading/settings.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
+namespace direction_test {
 // Elements along combinations of coordinates, and masses that rotate, as studies give them.
 namespace {
 
@@ -121,3 +122,4 @@ TEST_CASE("repeat stands for levers of every storey too") {
 }
 
 }  // namespace
+}  // namespace direction_test

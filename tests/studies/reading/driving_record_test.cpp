@@ -8,6 +8,7 @@
 #include "studies/record/fingerprint.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
+namespace driving_record_test {
 namespace {
 
 using namespace frahm::studies;
@@ -183,3 +184,4 @@ TEST_CASE("A study is read without its records where their files are gone") {
 }
 
 }  // namespace
+}  // namespace driving_record_test

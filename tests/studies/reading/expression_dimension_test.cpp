@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+namespace expression_dimension_test {
 namespace {
 
 using namespace frahm::studies;
@@ -106,3 +107,4 @@ TEST_CASE("whole numbers, halves and pi are pure numbers as factors") {
 }
 
 }  // namespace
+}  // namespace expression_dimension_test

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+namespace expression_test {
 namespace {
 
 using frahm::studies::Dual;
@@ -201,3 +202,4 @@ TEST_CASE("a long flat expression is as good as a short one") {
 }
 
 }  // namespace
+}  // namespace expression_test

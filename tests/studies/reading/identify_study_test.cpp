@@ -9,6 +9,7 @@
 #include "studies/record/study_plan.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
+namespace identify_study_test {
 namespace {
 
 using namespace frahm::studies;
@@ -382,3 +383,4 @@ TEST_CASE("a record of 20,000 rows is read in a fraction of a second") {
 }
 
 }  // namespace
+}  // namespace identify_study_test

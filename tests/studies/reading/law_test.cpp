@@ -7,6 +7,7 @@
 #include "solvers/quantities/quantity.hpp"
 #include "studies/reading/study.hpp"
 
+namespace law_test {
 namespace {
 
 using namespace frahm;
@@ -143,3 +144,4 @@ TEST_CASE("each number of a smooth law has a place of its own") {
 }
 
 }  // namespace
+}  // namespace law_test

@@ -9,6 +9,7 @@
 
 #include "studies/reading/study_source.hpp"
 
+namespace lookup_table_test {
 namespace {
 
 using frahm::studies::Dual;
@@ -95,3 +96,4 @@ TEST_CASE("a wrong table is told with file and line") {
 }
 
 }  // namespace
+}  // namespace lookup_table_test

@@ -14,6 +14,7 @@
 #include "tests/studies/temporary_folder.hpp"
 #include "tests/study_path.hpp"
 
+namespace matrices_study_test {
 namespace {
 
 using namespace frahm::studies;
@@ -282,3 +283,4 @@ TEST_CASE("the imported mast has the natural frequencies of a cantilever and its
 }
 
 }  // namespace
+}  // namespace matrices_study_test

@@ -7,6 +7,7 @@
 #include "studies/reading/study.hpp"
 #include "studies/record/study_plan.hpp"
 
+namespace motion_study_test {
 namespace {
 
 using namespace frahm::studies;
@@ -99,3 +100,4 @@ TEST_CASE("a decay and a transient are no maps") {
 }
 
 }  // namespace
+}  // namespace motion_study_test

@@ -6,6 +6,7 @@
 
 #include "studies/program/plain_output.hpp"
 
+namespace plain_text_test {
 using namespace frahm::studies;
 
 TEST_CASE("Control characters and bytes that are no text become question marks") {
@@ -40,3 +41,4 @@ TEST_CASE("A character that is written in pieces reaches the stream whole") {
     CHECK(to.str() == all);
   }
 }
+}  // namespace plain_text_test

@@ -5,6 +5,7 @@
 #include "studies/reading/study.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace profile_test {
 namespace {
 
 using namespace frahm::studies;
@@ -38,3 +39,4 @@ TEST_CASE("heights are one for each mass, or that of every storey") {
 }
 
 }  // namespace
+}  // namespace profile_test

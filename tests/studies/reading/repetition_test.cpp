@@ -6,6 +6,7 @@
 #include "studies/reading/study.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace repetition_test {
 // repeat = { i = [1, 60] }: tables written once for many.
 namespace {
 
@@ -69,3 +70,4 @@ TEST_CASE("twenty storeys fit on a page") {
 }
 
 }  // namespace
+}  // namespace repetition_test

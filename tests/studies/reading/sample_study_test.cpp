@@ -5,6 +5,7 @@
 
 #include "studies/reading/study.hpp"
 
+namespace sample_study_test {
 namespace {
 
 using namespace frahm::studies;
@@ -84,3 +85,4 @@ TEST_CASE("quantiles are named by their percentage") {
 }
 
 }  // namespace
+}  // namespace sample_study_test

@@ -15,6 +15,7 @@
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/small_tunings.hpp"
 
+namespace signal_study_test {
 // [[output.signal]] in every kind of study.
 namespace {
 
@@ -166,3 +167,4 @@ TEST_CASE("a signal is a limit of a tuning, and stays in the sweep at its optimu
 }
 
 }  // namespace
+}  // namespace signal_study_test

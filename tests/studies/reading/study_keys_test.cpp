@@ -9,6 +9,7 @@
 #include "studies/reading/element_keys.hpp"
 #include "studies/reading/key_groups.hpp"
 
+namespace study_keys_test {
 namespace {
 
 using namespace frahm::studies;
@@ -119,3 +120,4 @@ TEST_CASE("a form of a section has its own keys and those of all forms") {
   CHECK(words_of(study_key("tune", "objective"), "records") ==
         std::vector<std::string>{"worst_peak", "mean_peak"});
 }
+}  // namespace study_keys_test

@@ -11,6 +11,7 @@
 #include "studies/map/grid.hpp"
 #include "tests/study_path.hpp"
 
+namespace study_test {
 namespace {
 
 using namespace frahm::studies;
@@ -292,3 +293,4 @@ TEST_CASE("more friction elements than a flag can name have no borders") {
 }
 
 }  // namespace
+}  // namespace study_test

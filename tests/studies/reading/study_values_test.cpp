@@ -8,6 +8,7 @@
 #include "studies/reading/study.hpp"
 #include "tests/study_path.hpp"
 
+namespace study_values_test {
 namespace {
 
 using frahm::mechanics::NetworkValues;
@@ -72,3 +73,4 @@ TEST_CASE("evaluation does not move the values it has once made room for") {
 }
 
 }  // namespace
+}  // namespace study_values_test

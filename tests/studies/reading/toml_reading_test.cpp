@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+namespace toml_reading_test {
 namespace {
 
 using namespace frahm::studies;
@@ -80,3 +81,4 @@ TEST_CASE("a long line is cut around the column of the error") {
 }
 
 }  // namespace
+}  // namespace toml_reading_test

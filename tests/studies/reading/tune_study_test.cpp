@@ -8,6 +8,7 @@
 #include "studies/tuning/tuning_task.hpp"
 #include "tests/studies/small_tunings.hpp"
 
+namespace tune_study_test {
 namespace {
 
 using namespace frahm::studies;
@@ -192,8 +193,7 @@ TEST_CASE("a schedule is linear between its knots and ends with them") {
   const DesignCourse course{{5, 6, 8, 8, 9}, design.knots};
   CHECK(value_at(course, design.knots[0]) == 5.0);
   CHECK(value_at(course, design.knots[4]) == 9.0);
-  CHECK_THAT(value_at(course, 0.5 * (design.knots[1] + design.knots[2])),
-             Catch::WithinRel(7.0, rounding));
+  CHECK_THAT(value_at(course, 0.5 * (design.knots[1] + design.knots[2])), Catch::WithinRel(7.0, rounding));
   CHECK(value_at(course, 1.0) == 5.0);
   const auto parameters = parameters_of(study, {course, {{15e3}, {}}}, 0, design.knots[1]);
   CHECK_THAT(parameters[*study.parameters.find("I")], Catch::WithinRel(6.0, rounding));
@@ -263,3 +263,4 @@ TEST_CASE("samples are scenarios of a tuning, and a stroke is tuned as a signal'
 }
 
 }  // namespace
+}  // namespace tune_study_test

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+namespace unit_words_test {
 namespace {
 
 using frahm::studies::in_brackets;
@@ -19,3 +20,4 @@ TEST_CASE("Numbers and names are told with their units, pure numbers without") {
 }
 
 }  // namespace
+}  // namespace unit_words_test

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+namespace units_test {
 namespace {
 
 using frahm::studies::dimension_name;
@@ -129,3 +130,4 @@ TEST_CASE("what is no unit is refused") {
 }
 
 }  // namespace
+}  // namespace units_test

@@ -10,6 +10,7 @@
 #include "tests/results/temporary_directory.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace wrong_studies_test {
 namespace {
 
 using frahm::studies::read_study;
@@ -149,3 +150,4 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
 }
 
 }  // namespace
+}  // namespace wrong_studies_test

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+namespace array_tasks_test {
 namespace {
 
 using namespace frahm::studies;
@@ -33,3 +34,4 @@ TEST_CASE("tasks with missing tiles are told for each number of shards that left
 }
 
 }  // namespace
+}  // namespace array_tasks_test

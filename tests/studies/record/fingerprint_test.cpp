@@ -7,6 +7,7 @@
 #include "studies/map/map_plan.hpp"
 #include "tests/studies/small_studies.hpp"
 
+namespace fingerprint_test {
 namespace {
 
 using namespace frahm::studies;
@@ -111,3 +112,4 @@ TEST_CASE("a comparison, its slope and its quantities are part of the physics") 
 }
 
 }  // namespace
+}  // namespace fingerprint_test

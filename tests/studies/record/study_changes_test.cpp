@@ -13,6 +13,7 @@
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/small_tunings.hpp"
 
+namespace study_changes_test {
 namespace {
 
 using namespace frahm::studies;
@@ -165,3 +166,4 @@ TEST_CASE("whatever key of the project's studies is changed, the change is told"
 }
 
 }  // namespace
+}  // namespace study_changes_test

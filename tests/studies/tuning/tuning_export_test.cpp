@@ -10,6 +10,7 @@
 #include "studies/tuning/tuning_plan.hpp"
 #include "tests/studies/small_tunings.hpp"
 
+namespace tuning_export_test {
 namespace {
 
 using namespace frahm::studies;
@@ -176,3 +177,4 @@ TEST_CASE("what is written of a tuning of a signal has the signal, and opens wit
 }
 
 }  // namespace
+}  // namespace tuning_export_test

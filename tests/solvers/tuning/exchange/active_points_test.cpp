@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-namespace frahm::tuning {
+namespace frahm::tuning::active_points_test {
 namespace {
 
 constexpr std::size_t kGrid = 33;  // places of an even grid
@@ -120,4 +120,4 @@ TEST_CASE("points far below their bound are dropped, those near it and those wit
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::active_points_test

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+namespace band_maxima_test {
 namespace {
 
 using frahm::tuning::BandMaxima;
@@ -165,3 +166,4 @@ TEST_CASE("a place without a value does not hide the peak beside it") {
 }
 
 }  // namespace
+}  // namespace band_maxima_test

@@ -8,7 +8,7 @@
 
 #include "tests/known_answers/nishihara_asami.hpp"
 
-namespace frahm::tuning {
+namespace frahm::tuning::exchange_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -159,4 +159,4 @@ TEST_CASE("where one solver does not close the gap the other tries") {
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::exchange_test

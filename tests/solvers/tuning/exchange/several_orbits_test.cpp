@@ -9,7 +9,7 @@
 #include "solvers/tuning/optimum.hpp"
 #include "solvers/tuning/stages/held_without_derivative.hpp"
 
-namespace frahm::tuning {
+namespace frahm::tuning::several_orbits_test {
 namespace {
 
 using Catch::Matchers::WithinAbs;
@@ -188,4 +188,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::several_orbits_test

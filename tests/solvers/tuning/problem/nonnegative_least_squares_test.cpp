@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-namespace frahm::tuning {
+namespace frahm::tuning::nonnegative_least_squares_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -58,4 +58,4 @@ TEST_CASE("Non-negative least squares of nothing is nothing") {
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::nonnegative_least_squares_test

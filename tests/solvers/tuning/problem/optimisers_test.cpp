@@ -7,7 +7,7 @@
 #include "tests/solvers/known_optima.hpp"
 
 // Both adapters, on optima that are known.
-namespace frahm::tuning {
+namespace frahm::tuning::optimisers_test {
 namespace {
 
 using Catch::Matchers::Contains;
@@ -365,4 +365,4 @@ TEST_CASE("starts fill the box evenly, and the first is the one given") {
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::optimisers_test

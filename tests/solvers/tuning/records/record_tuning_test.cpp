@@ -9,7 +9,7 @@
 #include "tests/solvers/gradient_parameters.hpp"
 
 // Tunings over records against fine scans of the same objective by motions computed apart.
-namespace frahm::tuning {
+namespace frahm::tuning::record_tuning_test {
 namespace {
 
 using mechanics::ElementType, mechanics::ExcitationKind, mechanics::Network, mechanics::NetworkValues;
@@ -124,7 +124,7 @@ Optimum best_of_starts(const RecordTask& task, std::size_t starts) {
 }
 
 TEST_CASE("The tuned slip force of two storeys has the least worst and mean drift that a fine scan finds",
-          "[slow]") {
+          "[long]") {
   const Frame frame;
   for (const RecordObjective objective : {RecordObjective::worst_peak, RecordObjective::mean_peak}) {
     RecordTask task = frame.task(false);
@@ -239,7 +239,7 @@ double scanned_quantile(const RecordTask& task, double at, std::size_t kth) {
   return worst[kth - 1];
 }
 
-TEST_CASE("A tuned quantile over samples is no higher than the least of a dense scan", "[slow]") {
+TEST_CASE("A tuned quantile over samples is no higher than the least of a dense scan", "[long]") {
   constexpr double kNoHigher = 1e-4;  // relative
   constexpr std::size_t kSamples = 20;
   const Frame frame;
@@ -300,4 +300,4 @@ TEST_CASE("A tuning over no records, or with a schedule, is refused") {
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::record_tuning_test

@@ -8,6 +8,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 
+namespace bottleneck_path_test {
 using frahm::kInfinity;
 using frahm::tuning::bottleneck_path;
 using frahm::tuning::BottleneckPath;
@@ -128,3 +129,4 @@ TEST_CASE("a leap crosses a slope limit that the path has to keep elsewhere") {
   CHECK(leaping.leap == 0U);
   CHECK(leaping.levels == std::vector<std::size_t>{0, 2});
 }
+}  // namespace bottleneck_path_test

@@ -6,7 +6,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 
-namespace frahm::tuning {
+namespace frahm::tuning::design_map_test {
 namespace {
 
 const std::function<bool()> never_stop = [] { return false; };
@@ -86,4 +86,4 @@ TEST_CASE("where no design of a map meets the limits its low places are those th
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::design_map_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace frahm::tuning {
+namespace frahm::tuning::front_test {
 namespace {
 
 Optimum point(double limit, double objective, Outcome outcome = Outcome::converged) {
@@ -31,4 +31,4 @@ TEST_CASE("equal objectives do not undercut each other") {
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::front_test

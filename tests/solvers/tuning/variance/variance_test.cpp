@@ -13,7 +13,7 @@
 #include "tests/solvers/known_optima.hpp"
 
 // The mean square under white noise, against closed forms, a frequency integral and the known optima.
-namespace frahm::tuning {
+namespace frahm::tuning::variance_test {
 namespace {
 
 using Catch::Matchers::Contains;
@@ -387,4 +387,4 @@ TEST_CASE("a variance that is infinite, or of no linear system, is refused by na
 }
 
 }  // namespace
-}  // namespace frahm::tuning
+}  // namespace frahm::tuning::variance_test
