@@ -12,8 +12,10 @@ import re
 import signal
 import time
 
-from faulty_runs import (OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, main, sweep_study,
+from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, main, sweep_study,
                          tuning_study)
+
+RACES = 12 if EVERYTHING else 4
 
 RUN = ("run", "study.toml", "-o", OUTPUT, "--threads", "1", "--progress", "none")
 OWNER = re.compile(r"in use by process (\d+) on ")
@@ -97,7 +99,7 @@ def check_second(bench, study, expected):
 def check_races(bench, study, expected, *options):
     """Processes started together, again and again: whoever is refused names a process, and the file is right."""
     refused = 0
-    for _ in range(12):
+    for _ in range(RACES):
         place = bench.place(study)
         processes = []
         for _ in range(3):
@@ -109,7 +111,7 @@ def check_races(bench, study, expected, *options):
         assert any(outcome.code == 0 for outcome in outcomes)
         refused += sum(outcome.code == 6 for outcome in outcomes)
         expected.check_resume(place, "a race")
-    print(f"races: {refused} of 36 refused", flush=True)
+    print(f"races: {refused} of {3 * RACES} refused", flush=True)
 
 
 def check_shards(bench, study, expected):

@@ -80,7 +80,7 @@ def ends_of_records(data):
 def check_cuts(bench, study, expected, files):
     """A log cut off anywhere, as by a kill or a full disk."""
     data, ends = files[LOG], ends_of_records(files[LOG])
-    lengths = list(range(0, ends[1] + 1, 1 if EVERYTHING else 97))
+    lengths = list(range(0, ends[1] + 1, 1 if EVERYTHING else 293))
     lengths += [0, 1, HEADER_SIZE - 1, HEADER_SIZE, HEADER_SIZE + 1, ends[1] - 1, ends[1], ends[1] + 1]
     lengths += [length for end in sampled(ends[2:], 6) for length in (end - 1, end, end + RECORD_HEAD.size)]
     lengths = sorted({length for length in lengths if length <= len(data)})
@@ -102,7 +102,7 @@ def check_flips(bench, study, expected, files):
         check_used(bench, study, expected, files | {LOG: flipped(data, at, 3)}, f"owner, byte {at}", len(ends) - 1)
     in_records = [end + i for end in (ends[0], ends[4]) for i in range(RECORD_HEAD.size)]
     in_records += [end - 1 - i for end in (ends[1], ends[-1]) for i in range(5)]
-    in_records += [rng.randrange(HEADER_SIZE, len(data)) for _ in range(400 if EVERYTHING else 30)]
+    in_records += [rng.randrange(HEADER_SIZE, len(data)) for _ in range(400 if EVERYTHING else 12)]
     in_parallel(lambda at: check_used(bench, study, expected, files | {LOG: flipped(data, at, rng.randrange(8))},
                                       f"byte {at}", sum(end <= at for end in ends[1:])), in_records)
     print(f"{len(in_header)} wrong bits in headers, {len(in_records)} in records", flush=True)

@@ -64,11 +64,11 @@ def check_flips(bench, results):
     rng = random.Random(SEED)
     cases = []
     for kind, data in results.items():
-        for _ in range(2000 if EVERYTHING else 35):
+        for _ in range(2000 if EVERYTHING else 15):
             cases.append((kind, [rng.randrange(len(data)) for _ in range(rng.choice((1, 1, 8)))], rng.randrange(1, 256)))
         # HDF5's own structures lie before and between the data: bytes near its signatures.
         marks = [m.start() for m in re.finditer(rb"OHDR|OCHK|GCOL|FRHP|FSHD|FHDB|FHIB|BTHD|BTLF|TREE|HEAP|SNOD|FAHD|EAHD", data)]
-        for at in sampled(marks, 40):
+        for at in sampled(marks, 15):
             cases.append((kind, [min(len(data) - 1, at + rng.randrange(4, 64))], rng.randrange(1, 256)))
 
     def one(case):
@@ -84,7 +84,7 @@ def check_flips(bench, results):
 
 
 def check_cuts(bench, data):
-    for size in sampled(range(0, len(data), max(1, len(data) // 200)), 12):
+    for size in sampled(range(0, len(data), max(1, len(data) // 200)), 6):
         check(place_of(bench, data[:size]), f"cut to {size} bytes", codes=(6,))
 
 
@@ -397,7 +397,7 @@ def check_flipped_reruns(bench, data):
     place.write(OUTPUT, data)
     whole = table(OUTPUT)
     refused = 0
-    for at in random.Random(SEED).sample(range(len(data)), 80):
+    for at in random.Random(SEED).sample(range(len(data)), 80 if EVERYTHING else 25):
         flipped = bytearray(data)
         flipped[at] ^= 1 << at % 8
         for result, options in commands.items():

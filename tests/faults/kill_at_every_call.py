@@ -58,7 +58,7 @@ def kill_everywhere(bench, study, kind, threads):
     assert place.run("--threads", threads, "--progress", "none", fault=Fault()).code == 0
     calls = place.calls()
     assert len(calls) > 30 and whole_appends(calls) >= 4, calls
-    faults = list(kill_points(calls if kind == "sweep" and threads == "1" else sampled(calls, 30)))
+    faults = list(kill_points(sampled(calls, 40 if kind == "sweep" and threads == "1" else 12)))
     killed = sum(in_parallel(lambda fault: kill_and_resume(bench, study, kind, threads, expected, fault), faults))
     assert killed > 0.9 * len(faults), (killed, len(faults))
     return killed

@@ -12,8 +12,8 @@ import shutil
 from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, main, resumed_points, sampled,
                          sweep_study, tiles_of_log)
 
-FAILURES = 60 if EVERYTHING else 25  # of a small run, spread over its calls
-LATER = 10 if EVERYTHING else 4      # of a run of a second, which syncs as it goes
+FAILURES = 60 if EVERYTHING else 12  # of a small run, spread over its calls
+LATER = 10 if EVERYTHING else 2      # of a run of a second, which syncs as it goes
 STUDY = "study.toml"
 
 

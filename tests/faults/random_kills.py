@@ -12,9 +12,9 @@ import time
 from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, main, sweep_study,
                          tiles_of_log)
 
-KILLS = 200 if EVERYTHING else 50  # of the larger run, and as many of its shards and their merge
-CHAINS = 40 if EVERYTHING else 12  # runs killed again and again at random calls
-STOPS = 30 if EVERYTHING else 9
+KILLS = 200 if EVERYTHING else 15  # of the larger run, and as many of its shards and their merge
+CHAINS = 40 if EVERYTHING else 5  # runs killed again and again at random calls
+STOPS = 30 if EVERYTHING else 4
 MERGE = ("merge", OUTPUT)
 
 

@@ -86,7 +86,7 @@ def drill(bench):
             known["2^64 - 1 optima"] = word(0, 2**64 - 1)
         for case, change in known.items():
             check(bench, text, log, change, f"{kind}: {case}", (6,))
-        changes = drawn_changes(rng, 2000 if EVERYTHING else 60)
+        changes = drawn_changes(rng, 2000 if EVERYTHING else 25)
         in_parallel(lambda i: check(bench, text, log, changes[i], f"{kind}: change {i} of seed {SEED}", codes),
                     range(len(changes)))
         print(f"{kind}: {len(known) + len(changes)} wrong payloads", flush=True)
