@@ -1,7 +1,8 @@
 """Runs the job scripts of studies/slurm on a real Slurm, with what befalls jobs on a cluster: requeued by
 hand, stopped by the time limit, their node killed. The result has the bytes of one plain run.
 
-usage: drill.py FRAHM SOURCE_DIR
+usage: drill.py FRAHM SOURCE_DIR [--quick]
+--quick: the same job scripts on a small map; nothing befalls them
 ends with 0, with 1 and a message, or with 77 where Slurm is not installed or cannot run
 """
 
@@ -120,6 +121,13 @@ def check_mpi(drill):
     told("mpi: stopped by a signal, requeued, finished")
 
 
+def check_undisturbed_mpi(drill, raw_bytes):
+    """The MPI job on two nodes of a map that check_printed_lines has computed."""
+    drill.wait_for_end([drill.submit("--nodes=2", "--ntasks=4", "--time=10", "mpi.sh", "a small study.toml", "mpi.h5",
+                                     "--set", "K=8200 N/m")])
+    check_same(raw_bytes("mpi.h5"), raw_bytes("small.h5"), "the MPI job")
+
+
 def check_printed_lines(drill, source, raw_bytes):
     """The lines that `frahm check` prints, given to a shell as they stand; names and values need quoting."""
     reduced_study(source, "a small study.toml", 5, frequencies=101)
@@ -161,13 +169,17 @@ def plain_run(program):
     told(f"a plain run: {time.monotonic() - start:.1f} s")
 
 
-def run_drill(program, source):
+def run_drill(program, source, is_quick):
     sys.path.insert(0, os.path.join(source, "tests", "end_to_end"))
     from same_bytes import raw_bytes
     home = os.getcwd()
     with tempfile.TemporaryDirectory(prefix="frahm-drill-") as folder, Cluster(nodes=3, processors=2) as cluster:
         drill = Drill(program, source, folder, cluster)
         try:
+            if is_quick:
+                check_printed_lines(drill, source, raw_bytes)
+                check_undisturbed_mpi(drill, raw_bytes)
+                return
             reduced_study(source, "study.toml", FRICTIONS)
             plain_run(program)
             plain = raw_bytes("plain.h5")
@@ -193,13 +205,13 @@ def give_up(number, _):
 
 
 def main():
-    program, source = map(os.path.abspath, sys.argv[1:])
+    program, source, *quick = sys.argv[1:]
     for number in signal.SIGALRM, signal.SIGTERM, signal.SIGHUP:
         signal.signal(number, give_up)
     signal.alarm(MOST_SECONDS)
     start = time.monotonic()
     try:
-        run_drill(program, source)
+        run_drill(os.path.abspath(program), os.path.abspath(source), quick == ["--quick"])
     except NotAvailable as reason:
         print(f"slurm: skipped: {reason}", file=sys.stderr)
         return NOT_AVAILABLE
