@@ -415,7 +415,8 @@ TEST_CASE("tune_rig_robust.toml: the worst of all scenarios is pressed down, and
   CHECK(most(tuned.swept(2000)["main_peak"]) <= tuned.of("objective") * (1.0 + 1e-9));
 }
 
-TEST_CASE("tune_absorber_stops.toml: the worst of the stable responses found, and the stops out of reach") {
+TEST_CASE("tune_absorber_stops.toml: the worst of the stable responses found, and the stops out of reach",
+          "[long]") {
   const Tuned tuned("tune_absorber_stops");
   CHECK(tuned.of("nu") == Approx(0.816843644).epsilon(exact));
   CHECK(tuned.of("za") == Approx(0.08116239).epsilon(exact));
