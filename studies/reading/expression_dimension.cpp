@@ -190,8 +190,8 @@ Exponents exponents_of(const Unit& unit) {
 }
 
 bool same(const Exponents& a, const Exponents& b) {
-  constexpr double rounding = 1e-9;  // exponents are fractions with small denominators
-  return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < rounding; });
+  constexpr double rounding_of_exponents = 1e-9;  // exponents are fractions with small denominators
+  return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < rounding_of_exponents; });
 }
 
 std::string described(const Exponents& exponents) {
