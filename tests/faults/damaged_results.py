@@ -396,8 +396,8 @@ def check_flipped_reruns(bench, data):
 
     place.write(OUTPUT, data)
     whole = table(OUTPUT)
-    refused = 0
-    for at in random.Random(SEED).sample(range(len(data)), 80 if EVERYTHING else 25):
+    refused, flips = 0, 80 if EVERYTHING else 12
+    for at in random.Random(SEED).sample(range(len(data)), flips):
         flipped = bytearray(data)
         flipped[at] ^= 1 << at % 8
         for result, options in commands.items():
@@ -413,8 +413,8 @@ def check_flipped_reruns(bench, data):
         assert outcome.code in (0, 6), f"byte {at}: {outcome}"
         # The names in the first line lie under no checksum.
         assert outcome.code != 0 or outcome.out.split("\n")[1:] == whole.split("\n")[1:], f"byte {at}: other numbers in a table"
-    assert refused > 20, refused
-    print(f"80 flipped bits under a rerun, --from and export: {refused} refusals, no other number", flush=True)
+    assert refused > flips // 4, refused
+    print(f"{flips} flipped bits under a rerun, --from and export: {refused} refusals, no other number", flush=True)
 
 
 def check_studies_of_damaged(bench):

@@ -18,10 +18,10 @@ POINTS_OF_TILE = 129
 def changes_that_fail(calls):
     """A disk that is full from a call on, and one that is broken at it; the other way round, and other errors, here
     and there."""
-    for call in sampled(calls, 40):
+    for call in sampled(calls, 25):
         yield Fault(call.number, "fail_on", errno.ENOSPC)
         yield Fault(call.number, "fail", errno.EIO)
-    for call in sampled(calls, 8):
+    for call in sampled(calls, 4):
         yield Fault(call.number, "fail", errno.ENOSPC)
         yield Fault(call.number, "fail_on", errno.EIO)
         yield Fault(call.number, "fail_on", errno.EROFS)
@@ -92,7 +92,7 @@ def drill(bench):
     print(f"{len(faults)} failing changes: {errors} errors told, the others harmless", flush=True)
     assert errors > 0.8 * len(faults)
 
-    faults = [Fault(call.number, how, errno.ENOSPC) for call in sampled(changes, 15) for how in ("fail", "fail_on")]
+    faults = [Fault(call.number, how, errno.ENOSPC) for call in sampled(changes, 8) for how in ("fail", "fail_on")]
     in_parallel(lambda fault: fails_and_resumes(bench, study, expected, "2", before, fault), faults)
     print(f"{len(faults)} of them over an earlier file, on two threads", flush=True)
 
@@ -101,8 +101,8 @@ def drill(bench):
     in_parallel(lambda fault: fails_and_resumes(bench, study, expected, "1", None, fault), faults)
     print(f"{len(faults)} failing reads", flush=True)
 
-    faults = [Fault(call.number, "short") for call in sampled(changes, 40) if call.bytes > 1]
-    faults += [Fault(call.number, "short", 0, "reads") for call in sampled(reads, 15) if call.bytes > 1]
+    faults = [Fault(call.number, "short") for call in sampled(changes, 20) if call.bytes > 1]
+    faults += [Fault(call.number, "short", 0, "reads") for call in sampled(reads, 8) if call.bytes > 1]
     in_parallel(lambda fault: completes(bench, study, expected, "1", fault), faults)
     print(f"{len(faults)} short writes and reads, all completed", flush=True)
 

@@ -16,9 +16,9 @@ from pathlib import Path
 import frahm
 from small_studies import MACHINE, program, studies
 
-LONG = copy.deepcopy(MACHINE)  # some seconds of one thread
+LONG = copy.deepcopy(MACHINE)  # a second of one thread
 LONG["axis"] = [{"parameter": "F", "from": 1, "to": 200, "points": 901},
-                {"parameter": "speed", "unit": "rpm", "from": 300, "to": 1200, "points": 901}]
+                {"parameter": "speed", "unit": "rpm", "from": 300, "to": 1200, "points": 301}]
 
 
 def in_a_process(script, *arguments):

@@ -15,6 +15,9 @@ const chromiumPath = process.env.FRAHM_CHROMIUM;
 const screenshots = process.env.FRAHM_SCREENSHOTS;
 const { chromium } = createRequire(join(process.env.FRAHM_NODE_MODULES, "page.cjs"))("playwright-core");
 
+// Set to `all` by `./bootstrap checks long`: some tests take a few kinds of pages otherwise.
+export const everyKind = process.env.FRAHM_PAGES === "all";
+
 export const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "..", "..");
 
 // The file of one of the project's studies by its name; the folders under studies/ are by topic.

@@ -101,11 +101,11 @@ void compare_with_shooting(unsigned first_seed, unsigned count) {
 
 TEST_CASE("random networks have the same non-stop orbits from their reversal phases as by shooting",
           "[slow]") {
-  compare_with_shooting(0, 1000);
+  compare_with_shooting(0, 400);
 }
 
-TEST_CASE("3000 more random networks have the same orbits from their reversal phases", "[long]") {
-  compare_with_shooting(1000, 3000);
+TEST_CASE("3600 more random networks have the same orbits from their reversal phases", "[long]") {
+  compare_with_shooting(400, 3600);
 }
 
 TEST_CASE("an orbit from its reversal phases keeps within the error bounds of both ways") {
