@@ -135,10 +135,10 @@ TurningPoint fit_of(const Quarters& quarters, const TurningPoint& start, Degrees
 }  // namespace
 
 TurningPoint turning_point(const Quarters& quarters) {
-  constexpr Index kLeastOfSide = 2, kLeastSamples = 6;
+  constexpr Index kLeastOfSide = 2, kLeastPoints = 6;
   constexpr double kEpsilon = 4.0 * std::numeric_limits<double>::epsilon();
   const Index n = quarters.phase.size();
-  if (n < kLeastSamples) return {};
+  if (n < kLeastPoints) return {};
   TurningPoint start = parabola(quarters);
   start.rounding = kEpsilon * quarters.x.cwiseAbs().maxCoeff();
   const Index before = (quarters.phase.array() < start.phase).count();

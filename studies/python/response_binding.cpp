@@ -29,7 +29,7 @@ py::object value_of(const PointReport::QuantityValue& quantity) {
   return py::float_(value);
 }
 
-py::list quantities_of(const PointReport& report) {
+py::list quantity_values(const PointReport& report) {
   py::list list;
   for (const PointReport::QuantityValue& quantity : report.quantities) {
     const auto& described = quantity.description;
@@ -81,7 +81,7 @@ py::tuple gradient_of(const Study& study, const PointGradient& gradient) {
   return py::make_tuple(derivatives, why_none, gradient.reason);
 }
 
-py::dict parameters_of(const PointReport& report) {
+py::dict parameter_values(const PointReport& report) {
   py::dict parameters;
   for (const auto& [name, spoken] : report.parameters)
     parameters[py::str(name)] = py::make_tuple(spoken.value, spoken.unit);
@@ -123,8 +123,8 @@ py::dict point(const LoadedStudy& loaded, const std::vector<std::string>& at, co
   result["why_no_error_bound"] = report.why_no_bound;
   result["newton_iterations"] = report.newton_iterations;
   result["found_by"] = studies::way_name(report.way);
-  result["parameters"] = parameters_of(report);
-  result["quantities"] = quantities_of(report);
+  result["parameters"] = parameter_values(report);
+  result["quantities"] = quantity_values(report);
   result["stretches"] = stretches_of(report);
   result["history"] = history_of(report);
   result["gradient"] = found.gradient ? py::object(gradient_of(study, *found.gradient)) : py::none();

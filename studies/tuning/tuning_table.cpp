@@ -174,8 +174,8 @@ void print_front(const TuningAbout& about, std::ostream& out) {
   fmt::print(out, "\ntrade-off\n{:>34}{:>18}{:>16}\n",
              in_brackets(trade_off.name + " at most", trade_off.unit.text),
              in_brackets("objective", objective_unit(about.study)), "outcome");
-  const auto print_point = [&](double limit, double objective, const std::string& word) {
-    fmt::print(out, "{:>34.6g}{:>18.8g}{:>16}\n", limit / trade_off.unit.si_factor, objective, word);
+  const auto print_point = [&](double limit, double objective, const std::string& outcome) {
+    fmt::print(out, "{:>34.6g}{:>18.8g}{:>16}\n", limit / trade_off.unit.si_factor, objective, outcome);
   };
   std::vector<std::string> dominated;
   for (std::size_t i = 0; i < about.result.limits(); ++i) {
