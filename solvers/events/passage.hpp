@@ -6,32 +6,18 @@
 
 namespace frahm::periodic {
 
-// A change of mode: the event that ended the segment before it, and its outcome. Sensitivities, histories and
-// the certificate read these data instead of deducing them from the modes on both sides.
+// A change of mode: all that happened at the instant that ended the segment before it. Sensitivities read
+// from here whose guard was reached, and the rest from the instants and modes on both sides.
 struct Event {
   std::size_t segment = 0;   // the segment that it ends; the next one begins with it
-  ContactMask arrived = 0;   // contacts whose velocity reached zero here and that now stick or slide back
+  ContactMask arrived = 0;   // contacts whose velocity reached zero here, to stick or to slide back
   ContactMask released = 0;  // contacts that stuck before and now slide
-  Eigen::Index bend = -1;    // the bend that ended the segment; then its guard's slope, and which guard it is
-  bool bend_by_force = false;
-  // Events of this instant at which the acceleration may jump: a held velocity arrives, a force falls from a
-  // static limit, a bend's force jumps.
-  int jumps = 0;
-  // The contact that ended the segment; an arrival counts before a release (-1: none changed). Then the slope
-  // of its guard function [m a step^2 or N a step], seen from inside the segment, and the side of the limit
-  // that a force reached. Of an idle contact that shares the forces again it is the stuck force after it.
-  Eigen::Index contact = -1;
-  double slope = 0.0;
+  ContactMask let_go = 0;    // contacts whose stuck force reached its limit here
+  ContactMask at_place = 0;  // bends that came to their place
+  ContactMask by_force = 0;  // bends whose force vanished, or pushes again
+  // An idle contact that shares the forces again (-1: none), and the side of its limit at which it does.
+  Eigen::Index shares = -1;
   double side = 1.0;
-
-  // Whether a further event of this instant is the one to be recorded: the first of those at which the
-  // acceleration may jump, else the first.
-  bool is_to_record(bool may_jump) {
-    const bool takes = jumps == 0 && (may_jump || (contact < 0 && bend < 0));
-    jumps += may_jump ? 1 : 0;
-    if (takes) contact = bend = -1;
-    return takes;
-  }
 };
 
 // Whether the tangent of a passage is followed. Of a large system that takes as long as many passages: its

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "solvers/events/passage.hpp"
 #include "solvers/events/passage_steps.hpp"
 #include "solvers/events/workspace.hpp"
@@ -44,11 +46,12 @@ class Walk {
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_share(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage);
+  bool is_here(double fraction) const { return fraction <= kSameInstant * std::max(1.0, w_.clock); }
   void saltate(ContactMask released, Passage<N, H>& passage);
+  void catch_contacts(ContactMask arrived, const Mode<N, H>& mode_before, Passage<N, H>& passage);
   Event* change_here(Passage<N, H>& passage) const;
   void arrive_at(double fraction, double phase, Passage<N, H>& passage);
-  void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
-                   Passage<N, H>& passage) const;
+  void note_change(const GuardEvent& event, const Mode<N, H>& mode_before, Passage<N, H>& passage) const;
   void open_segment(Passage<N, H>& passage);
 
   Flow<N, H>& flow_;

@@ -45,8 +45,10 @@ void Walk<N, H>::follow(double phase, double length, Passage<N, H>& passage) {
       break;
     }
     w_.expanded = flow_.step(w_.left, flow_.mode(w_.mode), w_.right, w_.expansion);
-    const GuardEvent event = first_event(flow_, w_);
-    const BendEvent bend = first_bend(flow_, w_);
+    GuardEvent event = first_event(flow_, w_);
+    BendEvent bend = first_bend(flow_, w_);
+    if (is_here(event.at)) event.at = 0.0;
+    if (is_here(bend.at)) bend.at = 0.0;
     const double next = std::min(event.at, bend.at), room = length - w_.clock;
     if (next < room && next <= 1.0) {
       w_.knows_left = false;
@@ -249,15 +251,14 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
   const ContactMask released = flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
   note_arrivals(flow_, arrived, before, w_);
   if (passage.has_path || passage.has_tangent) {
-    if (arrived == 0)
-      add_release(flow_, event.contact, before, flow_.mode(mode_before), w_);
-    else
-      add_arrivals(flow_, arrived, before, flow_.mode(mode_before), w_);
+    const ContactMask let_go = event.release ? bit(event.contact) : 0;
+    add_contacts(flow_, arrived, let_go, before, flow_.mode(mode_before), w_);
     saltate(released, passage);
+    catch_contacts(arrived, flow_.mode(mode_before), passage);
   }
 
   // 4. Record the change and begin the next segment.
-  note_change(event, before, flow_.mode(mode_before), passage);
+  note_change(event, flow_.mode(mode_before), passage);
   open_segment(passage);
 }
 
@@ -269,9 +270,8 @@ void Walk<N, H>::pass_share(const GuardEvent& event, double phase, Passage<N, H>
   const double side = flow_.mode(w_.mode).sign(event.contact);
   w_.mode = w_.sharing[static_cast<std::size_t>(event.contact)];
   flow_.accelerate(flow_.mode(w_.mode), w_.left);
-  if (Event* change = change_here(passage); change != nullptr && change->is_to_record(false)) {
-    change->contact = event.contact;
-    change->slope = flow_.stuck_force(w_.left, flow_.mode(w_.mode), event.contact).slope;
+  if (Event* change = change_here(passage)) {
+    change->shares = event.contact;
     change->side = side;
   }
   open_segment(passage);
@@ -284,25 +284,24 @@ void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& 
   arrive_at(event.at, phase, passage);
   const Instant<N, H> before = w_.left;
   ++passage.bends;
-  const ValueAndSlope guard = bend_guard(flow_, before, event.guard, event.bend);
+  const double slope = bend_guard(flow_, before, event.guard, event.bend).slope;
   change_bend(flow_, event, w_);
-  const bool jumps = event.guard == BendGuard::place && contains(flow_.equations().bends.jumping, event.bend);
-  if (w_.mode != mode_before) {
+  const bool bends = w_.mode != mode_before;
+  const bool jumps =
+      bends && event.guard == BendGuard::place && contains(flow_.equations().bends.jumping, event.bend);
+  if (bends) {
     const ContactMask resting = at_rest(flow_, w_);
     if (jumps && resting != 0) choose_modes(flow_, resting, w_);
     settle_mode(flow_, 0, w_);
   }
   if (jumps && (passage.has_path || passage.has_tangent)) {
-    add_bend(flow_, event.bend, before, guard.slope, w_);
+    add_bend(flow_, event.bend, before, slope, w_);
     saltate(0, passage);
+    catch_contacts(0, flow_.mode(mode_before), passage);
   }
   if (Event* change = change_here(passage)) {
     change->released |= flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
-    if (w_.mode != mode_before && change->is_to_record(jumps)) {
-      change->bend = event.bend;
-      change->bend_by_force = event.guard == BendGuard::force;
-      change->slope = guard.slope;
-    }
+    if (bends) (event.guard == BendGuard::place ? change->at_place : change->by_force) |= bit(event.bend);
   }
   open_segment(passage);
 }
@@ -319,27 +318,14 @@ Event* Walk<N, H>::change_here(Passage<N, H>& passage) const {
 }
 
 template <int N, int H>
-void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& before,
-                             const Mode<N, H>& mode_before, Passage<N, H>& passage) const {
+void Walk<N, H>::note_change(const GuardEvent& event, const Mode<N, H>& mode_before,
+                             Passage<N, H>& passage) const {
   Event* change = change_here(passage);
   if (change == nullptr) return;
   const Mode<N, H>& after = flow_.mode(w_.mode);
-  const ContactMask arrived = arrived_between(flow_, mode_before, after);
-  change->arrived |= arrived;
+  change->arrived |= arrived_between(flow_, mode_before, after);
   change->released |= mode_before.stuck & ~after.stuck;
-  const ContactMask held = arrived & flow_.equations().holding;
-  const bool falls = arrived == 0 && event.release && falls_at_release(flow_.equations(), event.contact);
-  if ((arrived == 0 && !event.release) || !change->is_to_record(held != 0 || falls)) return;
-  if (arrived != 0) {
-    // Of several arrivals the first whose velocity is held: the acceleration jumps for it.
-    change->contact = first(held != 0 ? held : arrived);
-    change->slope = flow_.sliding_speed(before, change->contact).slope;
-  } else {
-    const ValueAndSlope force = flow_.stuck_force(before, mode_before, event.contact);
-    change->contact = event.contact;
-    change->slope = force.slope;
-    change->side = force.value > 0.0 ? 1.0 : -1.0;
-  }
+  if (event.release) change->let_go |= bit(event.contact);
 }
 
 }  // namespace frahm::periodic

@@ -82,4 +82,21 @@ void Walk<N, H>::saltate(ContactMask released, Passage<N, H>& passage) {
   w_.jumps.clear();
 }
 
+// Contacts that begin to stick at an event take up what is left of their velocities, M-orthogonally:
+//   dv+ = dv - M^-1 W G^+ W^T dv
+// What a single arrival adds is that already. Where several come together, or where one event of an instant
+// catches what another one has set sliding, it is left to do.
+template <int N, int H>
+void Walk<N, H>::catch_contacts(ContactMask arrived, const Mode<N, H>& mode_before, Passage<N, H>& passage) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const ContactMask stuck = flow_.mode(w_.mode).stuck & eq.holding, caught = stuck & ~mode_before.stuck;
+  if (caught == 0 || (caught == (arrived & eq.holding) && count(caught) == 1)) return;
+  const typename S::VectorByContacts reaction = flow_.configuration(flow_.mode(w_.mode)).reaction(eq);
+  end_stretch(passage);  // the jumps before are done
+  for (ContactMask left = stuck; left != 0; left &= left - 1)
+    w_.jumps.push_back(
+        {.contact = static_cast<int>(first(left)), .change = -reaction.col(first(left)), .by = {}});
+  saltate(0, passage);
+}
+
 }  // namespace frahm::periodic

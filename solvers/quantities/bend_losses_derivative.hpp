@@ -42,6 +42,9 @@ std::vector<double> bend_losses_derivative(const OrbitSteps<N, H>& orbit, const 
   const StepBends<N, H>&bends = flow.equations().bends, &by = passage.equations().bends;
   std::vector<double> loss(static_cast<std::size_t>(bends.count()), 0.0);
   const auto steps = orbit.steps();
+  const auto is_beyond = [&](std::size_t i, Eigen::Index j) {
+    return contains(flow.mode(steps[i].mode).beyond, j);
+  };
   std::size_t changes = 0;
   for (std::size_t i = 0; i < steps.size() && bends.count() > 0; ++i) {
     const PassageStep<N, H>& step = steps[i];
@@ -49,14 +52,15 @@ std::vector<double> bend_losses_derivative(const OrbitSteps<N, H>& orbit, const 
     const bool is_before_change = step.ends_segment && i + 1 < steps.size();
     changes += is_after_change ? 1 : 0;
     for (Eigen::Index j = 0; j < bends.count(); ++j) {
-      if (!contains(flow.mode(step.mode).beyond, j) || (bends.damping[j] == 0.0 && by.damping[j] == 0.0))
-        continue;
+      if (!is_beyond(i, j) || (bends.damping[j] == 0.0 && by.damping[j] == 0.0)) continue;
       const BendOverStep<N, H> bend(bends, by, step.expansion, passage.polynomials(i), j);
       double work = 0.0;
       for (int node = 0; node < kNodes; ++node)
         work += step.length * kNodeWeight[node] * bend.power_by(kNodeAt[node] * step.length);
-      if (is_after_change) work -= bend.power(0.0) * passage.shift(changes - 1);
-      if (is_before_change) work += bend.power(step.length) * passage.shift(changes);
+      if (is_after_change && !is_beyond(i - 1, j))
+        work -= bend.power(0.0) * passage.shift_of_bend(changes - 1, j);
+      if (is_before_change && !is_beyond(i + 1, j))
+        work += bend.power(step.length) * passage.shift_of_bend(changes, j);
       loss[static_cast<std::size_t>(j)] += (half_period ? 2.0 : 1.0) * work;
     }
   }

@@ -40,6 +40,7 @@ class Gradient {
   const char* why_none(std::size_t quantity) const { return why_none_[quantity]; }
 
  private:
+  void report(std::span<double> out);
   void measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system);
   void place_instants(const Orbit<N, H>& orbit, std::size_t trace);
   const char* differentiate(const Orbit<N, H>& orbit, const mechanics::NetworkValues& values,

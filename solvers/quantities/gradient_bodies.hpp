@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -25,13 +26,21 @@ const char* Gradient<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::
   const std::size_t count = request_.quantities.size();
   for (std::size_t d = 0; d < directions.size() && *reason == '\0'; ++d) {
     reason = differentiate(orbit, values, directions[d]);
-    if (*reason == '\0')
-      tell_derivatives(request_, measured_, measured_by_, out.subspan(d * count, count), why_none_);
+    if (*reason == '\0') report(out.subspan(d * count, count));
   }
   if (*reason == '\0') return reason;
   std::fill(out.begin(), out.end(), kNone);
   std::fill(why_none_.begin(), why_none_.end(), reason);
   return reason;
+}
+
+// What hangs on the instant of a change has no derivative where that instant is several.
+template <int N, int H>
+void Gradient<N, H>::report(std::span<double> out) {
+  tell_derivatives(request_, measured_, measured_by_, out, why_none_);
+  for (std::size_t i = 0; i < out.size() && sensitivity_.passage().has_apart(); ++i) {
+    if (std::isnan(out[i]) && *why_none_[i] == '\0') why_none_[i] = kSeveralChange;
+  }
 }
 
 template <int N, int H>
@@ -144,7 +153,8 @@ void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
       if (contains(mode.stuck, j)) continue;
       if (is_after_change && contains(flow_.mode(steps[i - 1].mode).stuck, j)) {
         const double speed = flow_.sliding_speed(steps[i].left, j).value;
-        its.sliding_distance -= halves * mode.sign(j) * speed * sensitivity_.passage().shift(changes - 1);
+        const double shift = sensitivity_.passage().shift_of_contact(changes - 1, j);
+        its.sliding_distance -= halves * mode.sign(j) * speed * shift;
       }
       const auto& p = sensitivity_.passage().polynomials(i);
       const typename S::State d = p.transpose() * powers(steps[i].length);
@@ -154,10 +164,11 @@ void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
       its.sliding_distance += halves * mode.sign(j) * slid;
     }
     double stuck = 0.0;  // [steps]
-    for (std::size_t k = 0; k < segments.size(); ++k) {
-      if (!flow_.rests(flow_.mode(segments[k].mode), j)) continue;
-      if (k + 1 < segments.size()) stuck += sensitivity_.passage().shift(k);
-      if (k > 0) stuck -= sensitivity_.passage().shift(k - 1);
+    const auto rests = [&](std::size_t k) { return flow_.rests(flow_.mode(segments[k].mode), j); };
+    for (std::size_t k = 0; k + 1 < segments.size(); ++k) {
+      if (rests(k) == rests(k + 1)) continue;
+      const double shift = sensitivity_.passage().shift_of_contact(k, j);
+      stuck += rests(k) ? shift : -shift;
     }
     its.stuck_fraction = stuck * halves / flow_.equations().period;
   }

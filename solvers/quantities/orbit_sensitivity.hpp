@@ -20,7 +20,7 @@ const char* why_no_orbit_derivative(const Orbit<N, H>& orbit) {
     case Status::several:
       return "";
     case Status::grazing:
-      return "grazing: an event only just happens, and the derivatives on both sides differ";
+      return kGrazes;
     case Status::unbounded:
       return "the response is unbounded";
     default:
@@ -67,8 +67,6 @@ const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps
   steps_ = steps.steps();
   if (orbit.passage.starts_at_event)
     return "events follow one another too closely for a section between them";
-  if (const char* reason = why_no_passage_derivative<N, H>(flow_, orbit.passage.changes); *reason != '\0')
-    return reason;
 
   typename S::StateSquare A = -orbit.sign() * orbit.passage.tangent;
   A.diagonal().array() += 1.0;
@@ -87,6 +85,7 @@ const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by
   passage_.set_direction(by);
   const typename S::State g_p =
       passage_.sweep(steps_, orbit_->passage.changes, S::State::Zero(flow_.equations().states()));
+  if (*passage_.why_none() != '\0') return passage_.why_none();
   typename S::State right_side = orbit_->sign() * g_p;
   add_rest_positions(right_side);
   const typename S::State start = periodicity_.solve(right_side);
@@ -96,7 +95,7 @@ const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by
     return "the period map has a multiplier of 1: the response is one of many";
   }
   passage_.sweep(steps_, orbit_->passage.changes, start);
-  return "";
+  return passage_.why_none();
 }
 
 // A contact that sticks throughout rests where the energy is least, which makes the mean of L^T z zero:

@@ -102,10 +102,11 @@ void MotionSensitivity::differentiate() {
   } else {
     why_none_ = cross_border(steps.front());
   }
-  const std::vector<periodic::Event>& changes = passage_.changes;
-  if (*why_none_ == '\0') why_none_ = periodic::why_no_passage_derivative<kAny, kAny>(flow_, changes);
-  if (*why_none_ != '\0') return;
-  for (Direction& d : directions_) d.delta = d.sensitivity.sweep(steps, changes, d.delta);
+  for (Direction& d : directions_) {
+    if (*why_none_ != '\0') return;
+    d.delta = d.sensitivity.sweep(steps, passage_.changes, d.delta);
+    why_none_ = d.sensitivity.why_none();
+  }
 }
 
 // delta is taken with tau = t/h held, the initial values are given with t held:
@@ -118,51 +119,39 @@ void MotionSensitivity::begin(const Step& first) {
   for (Direction& d : directions_) d.delta += (d.by.log_step * tau) * rate;
 }
 
-// A contact that arrives just at the end of a passage arrives between two passages. If several arrive and all
-// stick from there on, the impulses of their friction reduce delta to its M-orthogonal projection onto the
-// velocities that keep them stuck, in any order of arrival; the next passage begins with that projection.
+// What arrives, lets go or bends just at the end of a passage changes between two passages. The next one
+// begins with the projection onto what is stuck from there on.
 const char* MotionSensitivity::cross_border(const Step& first) {
   const auto& eq = flow_.equations();
-  const periodic::Mode<kAny, kAny>&before = ending_.mode, &after = flow_.mode(first.mode);
-  const periodic::ContactMask bent = (after.beyond ^ before.beyond) & eq.bends.jumping;
-  if (after.stuck == before.stuck && after.positive == before.positive && bent == 0) return "";
-  const periodic::ContactMask arrived = periodic::arrived_between(flow_, before, after) & eq.holding;
-  if (bent != 0) return arrived == 0 ? cross_bends(bent, first) : periodic::kSeveralChange;
-  if (arrived == 0) return falls_from_limit(before.stuck & ~after.stuck) ? kLetsGo : "";
-  if (periodic::count(arrived) > 1) {
-    const bool all_stick = (arrived & ~after.stuck) == 0 && (before.stuck & ~after.stuck) == 0;
-    return all_stick ? "" : periodic::kSeveralArrive;
+  const periodic::Mode<kAny, kAny>&before = flow_.mode(ending_.mode), &after = flow_.mode(first.mode);
+  if (ending_.mode == first.mode) return "";
+  const periodic::Event change{.arrived = periodic::arrived_between(flow_, before, after),
+                               .released = before.stuck & ~after.stuck,
+                               .at_place = (after.beyond ^ before.beyond) & eq.bends.jumping};
+  if (change.arrived == 0 && change.at_place == 0 && lets_go_inside(change.released)) return kLetsGo;
+  for (Direction& d : directions_) {
+    const char* reason =
+        d.sensitivity.cross(change, {ending_.mode, ending_.at}, {first.mode, first.left}, d.delta);
+    if (*reason != '\0') return reason;
   }
-  const Index contact = periodic::first(arrived);
-  const double slope = ending_.slopes[static_cast<std::size_t>(contact)];
-  for (Direction& d : directions_) d.sensitivity.arrive(contact, slope, ending_.at, first.left, d.delta);
   return "";
 }
 
-// A bend that reaches its place just at the end of a passage.
-const char* MotionSensitivity::cross_bends(periodic::ContactMask bent, const Step& first) {
-  if (periodic::count(bent) > 1) return periodic::kSeveralChange;
-  const Index bend = periodic::first(bent);
-  const double slope = periodic::bend_place(flow_, ending_.at, bend).slope;
-  for (Direction& d : directions_)
-    d.sensitivity.bend(bend, periodic::BendGuard::place, slope, ending_.at, first.left, d.delta);
-  return "";
-}
-
-bool MotionSensitivity::falls_from_limit(periodic::ContactMask released) const {
-  for (Index j = 0; j < flow_.equations().contacts(); ++j) {
-    if (periodic::contains(released, j) && periodic::falls_at_release(flow_.equations(), j)) return true;
+// Whether a force falls from its static limit though it was not at it.
+bool MotionSensitivity::lets_go_inside(periodic::ContactMask released) const {
+  for (; released != 0; released &= released - 1) {
+    const Index j = periodic::first(released);
+    if (periodic::falls_at_release(flow_.equations(), j) &&
+        !periodic::is_at_limit(flow_, j, ending_.at, flow_.mode(ending_.mode)))
+      return true;
   }
   return false;
 }
 
 void MotionSensitivity::keep_ending(const Step& last) {
   begun_ = true;
-  ending_.mode = flow_.mode(last.mode);
+  ending_.mode = last.mode;
   ending_.at = last.right;
-  ending_.slopes.clear();
-  for (Index j = 0; j < flow_.equations().contacts(); ++j)
-    ending_.slopes.push_back(flow_.sliding_speed(last.right, j).slope);
 }
 
 // The samples before `end` [s], from a step of the current passage on.
@@ -192,7 +181,7 @@ bool MotionSensitivity::is_at_rest() const {
   const auto& eq = flow_.equations();
   const Index harmonics = eq.force.cols() - 1;
   return begun_ && eq.internal_forces() == 0 && eq.force.rightCols(harmonics).isZero(0.0) &&
-         eq.motion_velocity.isZero(0.0) && flow_.configuration(ending_.mode).holds_all(eq);
+         eq.motion_velocity.isZero(0.0) && flow_.configuration(flow_.mode(ending_.mode)).holds_all(eq);
 }
 
 void MotionSensitivity::finish() {

@@ -57,17 +57,15 @@ class MotionSensitivity {
   };
   // How the passage before ended.
   struct Ending {
-    periodic::Mode<kAny, kAny> mode;
+    std::size_t mode = 0;
     periodic::Instant<kAny, kAny> at;
-    std::vector<double> slopes;  // of each contact's sliding velocity there
   };
 
   bool pass(double length, double phase);
   void differentiate();
   void begin(const Step& first);
   const char* cross_border(const Step& first);
-  const char* cross_bends(periodic::ContactMask bent, const Step& first);
-  bool falls_from_limit(periodic::ContactMask released) const;
+  bool lets_go_inside(periodic::ContactMask released) const;
   void keep_ending(const Step& last);
   void sample(std::size_t step, double end);
 
