@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "solvers/events/passage.hpp"
 #include "solvers/events/passage_steps.hpp"
@@ -46,7 +47,10 @@ class Walk {
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_share(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage);
-  bool is_here(double fraction) const { return fraction <= kSameInstant * std::max(1.0, w_.clock); }
+  bool is_here(double fraction) const {
+    constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+    return fraction <= std::max(kSameInstant, kRounding * w_.clock);
+  }
   void saltate(ContactMask released, Passage<N, H>& passage);
   void catch_contacts(ContactMask arrived, const Mode<N, H>& mode_before, Passage<N, H>& passage);
   Event* change_here(Passage<N, H>& passage) const;

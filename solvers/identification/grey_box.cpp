@@ -146,7 +146,14 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
   const double variance =
       result.degrees_of_freedom > 0.0 ? fit.sum_of_squares() / result.degrees_of_freedom : kNone;
   MatrixXd J, J_fixed;
-  if (!misfit.evaluate(fit.p, r, &J, &J_fixed)) J = fit.jacobian;
+  if (!misfit.evaluate(fit.p, r, &J, &J_fixed)) {
+    J = fit.jacobian;
+    J_fixed.setZero();
+    result.notes.push_back(
+        "the motion has no derivative by what was found before, whose uncertainty is left "
+        "out: " +
+        misfit.reason());
+  }
   const MatrixXd own = covariance(J, variance, scales);
   result.covariance = with_fixed(own, J, J_fixed, task.fixed_covariance, scales);
   set_degrees_of_freedom(task, own, result);
@@ -199,6 +206,14 @@ std::string too_few(const Misfit& misfit) {
          std::to_string(unknowns) + " unknowns: at least as many are needed";
 }
 
+// ": " and why the model cannot be computed or differentiated at p; "": it can.
+std::string why_no_derivative(Misfit& misfit, const VectorXd& p) {
+  VectorXd r;
+  MatrixXd J;
+  if (p.size() == 0 || misfit(p, r, &J) || misfit.reason().empty()) return "";
+  return ": " + misfit.reason();
+}
+
 }  // namespace
 
 Identification grey_box(const GreyBoxTask& task) {
@@ -218,7 +233,7 @@ Identification grey_box(const GreyBoxTask& task) {
   if (!fit.converged || fit.jacobian.size() == 0) {
     const std::string what = "the fit found no least sum of squares: " + fit.reason;
     if (fit.jacobian.size() == 0) {
-      result.failure = what;
+      result.failure = what + why_no_derivative(misfit, fit.p);
       return result;
     }
     result.notes.push_back(what + "; these are the best values met");

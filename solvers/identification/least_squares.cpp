@@ -153,6 +153,7 @@ void solve(const std::vector<Bounded>& bounded, const Residuals& residuals,
   }
   if (!residuals(fit.p, fit.residuals, &fit.jacobian)) {
     fit.converged = false;
+    fit.jacobian.resize(0, 0);
     fit.reason = "the model has no value or no derivative at the best values met";
   }
 }
@@ -216,9 +217,9 @@ LeastSquaresFit least_squares(const std::vector<Unknown>& unknowns, const Residu
     return fit;
   }
   solve(bounded, residuals, options, fit);
-  const std::vector<int> sides = held(bounded, fit);
-  if (fit.jacobian.size() > 0 &&
-      std::any_of(sides.begin(), sides.end(), [](int side) { return side != 0; })) {
+  const std::vector<int> sides =
+      fit.jacobian.size() > 0 ? held(bounded, fit) : std::vector<int>(bounded.size(), 0);
+  if (std::any_of(sides.begin(), sides.end(), [](int side) { return side != 0; })) {
     // Once more without the held unknowns, set exactly to their bounds.
     fit.at_bound = sides;
     for (std::size_t i = 0; i < sides.size(); ++i) {

@@ -35,7 +35,7 @@ struct LeastSquaresFit {
   std::string reason;         // a sentence: why it ended
   Eigen::VectorXd p;          // the best met
   Eigen::VectorXd residuals;  // at p
-  Eigen::MatrixXd jacobian;   // at p
+  Eigen::MatrixXd jacobian;   // at p; empty where it does not exist
   std::vector<int> at_bound;  // of each unknown: -1 at its lower, 1 at its upper bound, 0 between
   int iterations = 0;
 

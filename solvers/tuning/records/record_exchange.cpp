@@ -94,6 +94,7 @@ void RecordExchange::close_gap() {
     RecordProblem problem(task_, active, stop_asked_, design, largest_of(found, left_out_));
     Solution solution = solve(problem, task_.solver, kRound);
     optimum_.gradients += problem.gradients();
+    why_none_ = problem.why_no_derivative();
     optimum_.iterations += solution.iterations;
     design.assign(solution.x.begin(), solution.x.begin() + static_cast<std::ptrdiff_t>(design.size()));
     found = look(design);

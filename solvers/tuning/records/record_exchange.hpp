@@ -60,7 +60,8 @@ class RecordExchange {
   std::vector<std::vector<bool>> chosen_;
   std::vector<PeakPlace> active_;
   Best best_;
-  std::string failure_;  // why a motion could not be followed
+  std::string failure_;   // why a motion could not be followed
+  std::string why_none_;  // why one had no derivative where the last round ended
   Optimum optimum_;
 };
 

@@ -70,6 +70,7 @@ void RecordProblem::go_to(std::span<const double> design) {
   design_.assign(design.begin(), design.end());
   sizes_.assign(active_.size(), kNone);
   by_.assign(active_.size(), std::vector<double>(design.size(), kNone));
+  why_none_.clear();
   mechanics::NetworkValues values;
   std::vector<mechanics::NetworkValues> along;
   for (std::size_t s = 0; s < task_.scenarios.size(); ++s) {
@@ -98,6 +99,7 @@ void RecordProblem::follow(std::size_t scenario, std::size_t record, const mecha
   const transient::DisplacementSensitivity motion = transient::displacement_sensitivity(
       task_.network, values, along, task_.records[record], task_.coordinate, times, {});
   if (!motion.failure.empty()) return;
+  if (!motion.why_none.empty()) why_none_ = motion.why_none;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     const double sign = active_[rows[k]].sign;

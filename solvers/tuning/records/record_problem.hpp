@@ -24,6 +24,8 @@ class RecordProblem final : public Problem {
   bool stop_asked() override { return stop_asked_(); }
 
   std::size_t gradients() const { return gradients_; }  // motions followed with their derivatives
+  // Why a motion of the design gone to last has no derivative; "": all have.
+  const std::string& why_no_derivative() const { return why_none_; }
 
  private:
   std::size_t bounds() const { return variables.size() - task_.parameters.size(); }
@@ -45,6 +47,7 @@ class RecordProblem final : public Problem {
   std::vector<double> sizes_;            // sign x of each active time there; NaN: not computed
   std::vector<std::vector<double>> by_;  // of each active time: by each design parameter
   std::size_t gradients_ = 0;
+  std::string why_none_;
 };
 
 }  // namespace frahm::tuning

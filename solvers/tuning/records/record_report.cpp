@@ -54,6 +54,8 @@ void RecordExchange::judge() {
 void RecordExchange::end(Outcome outcome, std::string reason) {
   optimum_.outcome = outcome;
   optimum_.reason = std::move(reason);
+  if (outcome == Outcome::not_converged && !why_none_.empty())
+    optimum_.reason += "; a motion has no derivative where the last round ended: " + why_none_;
 }
 
 // Multipliers belong to bounds that are met.

@@ -231,5 +231,43 @@ TEST_CASE("A clearance that the motion does not reach is not determined upwards"
   }
 }
 
+// Two equal bumpers side by side, fitted to the motion against one as stiff as both.
+TEST_CASE("A spring is found where two equal stops are touched and left at one instant") {
+  for (const double c : {0.0, 10.0}) {
+    INFO("damping " << c);
+    const auto bumpers = [&](std::size_t count) {
+      Network network{.masses = {"x"},
+                      .prescribed = {},
+                      .elements = {{"spring", ElementType::spring, ground, mass},
+                                   {"damper", ElementType::damper, ground, mass}},
+                      .excitations = {}};
+      Model model{{.omega = 1.0, .mass = {1.0}, .element = {1000.0, 1.0}, .excitation = {}}, {{0.03}, {0.0}}};
+      model.values.second = {0.0, 0.0};
+      model.values.bends = {{}, {}};
+      const double share = 1.0 / static_cast<double>(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        network.elements.emplace_back("stop" + std::to_string(i), ElementType::gap, ground, mass);
+        network.elements.back().bends = {{1.0, &laws::elastic_stop}};
+        model.values.element.push_back(1e4 * share);
+        model.values.second.push_back(c * share);
+        model.values.bends.push_back({{0.01, 1e4 * share, c * share}});
+      }
+      return std::pair{network, model};
+    };
+    const auto [one, truth] = bumpers(1);
+    for (const int samples : {11, 30}) {
+      const TimeRecord record =
+          displacements("record", MotionKind::free, one, truth, 2e-3 * (samples - 1), samples);
+      const auto [two, model] = bumpers(2);
+      const Identification result = fit(two, model, {element("k", 0)}, {1.05}, {record});
+      CHECK(result.failure == "");
+      CHECK(result.converged);
+      REQUIRE(result.estimates.size() == 1);
+      CHECK_THAT(result.estimates[0].value, Catch::WithinRel(1000.0, kFound));
+      CHECK(std::isfinite(result.estimates[0].standard_error));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace frahm::identification::grey_box_bends_test

@@ -144,6 +144,18 @@ Estimate estimate(const char* name, double value) {
   return {.name = name, .unit = "1", .long_name = "", .value = value};
 }
 
+TEST_CASE("a model without a derivative where the search stands is no fit") {
+  const Residuals no_derivative = [](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* by) {
+    r = Eigen::Vector3d(p[0] - 1.0, p[0] - 2.0, p[0] - 3.0);
+    if (by != nullptr) by->setZero(3, 1);
+    return by == nullptr;
+  };
+  const LeastSquaresFit fit = least_squares({{.name = "p", .start = 1.5}}, no_derivative, {});
+  CHECK_FALSE(fit.converged);
+  CHECK(fit.jacobian.size() == 0);
+  CHECK_THAT(fit.reason, Catch::Matchers::Contains("no derivative"));
+}
+
 TEST_CASE("intervals reach as far as Student's t, and what is derived has its share") {
   Identification result;
   result.estimates = {estimate("a", 2.0), estimate("b", 3.0)};

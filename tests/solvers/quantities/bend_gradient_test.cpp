@@ -239,37 +239,5 @@ TEST_CASE("Derivatives of a driven block on a belt, by the belt's speed too") {
   }
 }
 
-// Two masses that know nothing of each other, and each its stop.
-TEST_CASE("Two damped stops that are hit at one instant leave no derivative, two without damping do") {
-  Network network;
-  network.masses = {"left", "right"};
-  network.elements = {{"left_spring", ElementType::spring, ground, first},
-                      {"right_spring", ElementType::spring, ground, second},
-                      {"left_damper", ElementType::damper, ground, first},
-                      {"right_damper", ElementType::damper, ground, second},
-                      stops(ground, first, false),
-                      stops(ground, second, false)};
-  network.elements[5].name = "right_stop";
-  network.excitations = {{ExcitationKind::force, 0, 1}, {ExcitationKind::force, 1, 1}};
-  for (const double damping : {0.0, 0.1}) {
-    const NetworkValues values{.omega = 0.8,
-                               .mass = {1.0, 1.0},
-                               .element = {1.0, 1.0, 0.2, 0.2, 2.0, 2.0},
-                               .excitation = {{1.0, 0.0}, {1.0, 0.0}},
-                               .second = {0.0, 0.0, 0.0, 0.0, damping, damping},
-                               .bends = {{}, {}, {}, {}, {{0.5, 2.0, damping}}, {{0.5, 2.0, damping}}}};
-    PeriodicResponse response(network, {*find_quantity("left_peak", network)});
-    response.set_values(values);
-    response.solve();
-    NetworkValues direction = zero_direction(values);
-    direction.bends[4][0].place = 1.0;
-    double by = 0.0;
-    const std::string reason = response.gradient({&direction, 1}, {&by, 1});
-    const bool refused = reason == "several contacts or elements change their state at one instant";
-    CHECK(refused == (damping > 0.0));
-    CHECK(std::isfinite(by) == (damping == 0.0));
-  }
-}
-
 }  // namespace
 }  // namespace frahm::periodic::bend_gradient_test

@@ -44,25 +44,6 @@ TEST_CASE("No gradient is given at grazing, beyond a resonance without bounds, o
                 "a response under a smooth law");
 }
 
-TEST_CASE("Nor where two contacts come to rest at one instant") {
-  // Two equal masses, each on its own spring and guide.
-  const mechanics::Node ground{}, first{mechanics::NodeKind::mass, 0}, other{mechanics::NodeKind::mass, 1};
-  const Network network{.masses = {"first", "other"},
-                        .prescribed = {},
-                        .elements = {{"k1", ElementType::spring, ground, first},
-                                     {"k2", ElementType::spring, ground, other},
-                                     {"c1", ElementType::damper, ground, first},
-                                     {"c2", ElementType::damper, ground, other},
-                                     {"f1", ElementType::coulomb, ground, first},
-                                     {"f2", ElementType::coulomb, ground, other}},
-                        .excitations = {{ExcitationKind::force, 0, 1}, {ExcitationKind::force, 1, 1}}};
-  const NetworkValues values{.omega = 0.8,
-                             .mass = {1.0, 1.0},
-                             .element = {1.0, 1.0, 0.2, 0.2, 0.3, 0.3},
-                             .excitation = {{1.0, 0.0}, {1.0, 0.0}}};
-  check_refused(network, values, "several contacts come to rest at one instant");
-}
-
 TEST_CASE("Where both sides of a peak tie it has no derivative, and each side by itself has") {
   // A second harmonic of no amplitude: the response is symmetric, and the harmonic would break that.
   Network network = single_mass();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "solvers/laws/elastic_stop.hpp"
 #include "solvers/transient/forced_motion.hpp"
 #include "solvers/tuning/records/record_task.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
@@ -297,6 +298,60 @@ TEST_CASE("A tuning over no records, or with a schedule, is refused") {
   task = frame.task(false);
   task.records.clear();
   CHECK_THROWS_WITH(tune_over_records(task, 0, never), Catch::Contains("needs a record"));
+}
+
+// A stop between the ground and the first storey, or as many side by side as are as stiff as it.
+Frame with_stops(std::size_t count, double clearance) {
+  Frame frame;
+  frame.values.second.assign(frame.values.element.size(), 0.0);
+  frame.values.bends.assign(frame.values.element.size(), {});
+  const double share = 1.0 / static_cast<double>(count), k = 60.0 * share, c = 1.0 * share;
+  for (std::size_t i = 0; i < count; ++i) {
+    frame.network.elements.emplace_back("stop" + std::to_string(i), ElementType::gap,
+                                        Node{NodeKind::prescribed, 0}, Node{NodeKind::mass, 0});
+    frame.network.elements.back().bends = {{1.0, &laws::elastic_stop}};
+    frame.values.element.push_back(k);
+    frame.values.second.push_back(c);
+    frame.values.bends.push_back({{clearance, k, c}});
+  }
+  return frame;
+}
+
+TEST_CASE("A frame between equal stops side by side is tuned as against one as stiff as all of them") {
+  const double clearance = 0.2 * scanned(Frame().task(false), {0.5});
+  const Frame one = with_stops(1, clearance), two = with_stops(2, clearance);
+  const Optimum alone = tune_over_records(one.task(false), 0, never),
+                together = tune_over_records(two.task(false), 0, never);
+  REQUIRE(alone.outcome == Outcome::converged);
+  CHECK(alone.objective > clearance);
+  REQUIRE(together.outcome == Outcome::converged);
+  CHECK_THAT(together.objective, Catch::WithinRel(alone.objective, kScanned));
+  CHECK_THAT(together.parameters[0].value[0], Catch::WithinRel(alone.parameters[0].value[0], 1e-4));
+}
+
+// Two storeys that are alike, side by side, and turn together; where only one of them is tuned the order
+// of their turns decides, as an inerter joins them.
+TEST_CASE("A tuning that starts where a motion has no derivative says why") {
+  Frame frame;
+  const Node ground{NodeKind::prescribed, 0}, first{NodeKind::mass, 0}, second{NodeKind::mass, 1};
+  frame.network.elements[3] = {"k2", ElementType::spring, ground, second};
+  frame.network.elements[4] = {"c2", ElementType::damper, ground, second};
+  frame.network.elements[5] = {"F2", ElementType::coulomb, ground, second};
+  frame.network.elements.emplace_back("joint", ElementType::inerter, first, second);
+  frame.values.element = {90.0, 0.3, 0.01, 90.0, 0.3, 0.01, 0.5};
+  RecordTask task = frame.task(false);
+  task.parameters = {{.name = "k", .lower = 60.0, .upper = 120.0, .nominal = 90.0, .schedule = {}}};
+  task.network_at = [&frame](std::size_t, std::span<const double> at, NetworkValues& now,
+                             std::vector<NetworkValues>* along) {
+    now = frame.values;
+    now.element[0] = at[0];
+    if (!along) return;
+    along->assign(1, periodic::zero_direction(frame.values));
+    (*along)[0].element[0] = 1.0;
+  };
+  const Optimum optimum = tune_over_records(task, 0, never);
+  CHECK(optimum.outcome == Outcome::not_converged);
+  CHECK_THAT(optimum.reason, Catch::Matchers::Contains("several contacts come to rest at one instant"));
 }
 
 }  // namespace
