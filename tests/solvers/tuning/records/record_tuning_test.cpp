@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "solvers/laws/elastic_stop.hpp"
 #include "solvers/transient/forced_motion.hpp"
 #include "solvers/tuning/records/record_task.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
@@ -298,35 +297,6 @@ TEST_CASE("A tuning over no records, or with a schedule, is refused") {
   task = frame.task(false);
   task.records.clear();
   CHECK_THROWS_WITH(tune_over_records(task, 0, never), Catch::Contains("needs a record"));
-}
-
-// A stop between the ground and the first storey, or as many side by side as are as stiff as it.
-Frame with_stops(std::size_t count, double clearance) {
-  Frame frame;
-  frame.values.second.assign(frame.values.element.size(), 0.0);
-  frame.values.bends.assign(frame.values.element.size(), {});
-  const double share = 1.0 / static_cast<double>(count), k = 60.0 * share, c = 1.0 * share;
-  for (std::size_t i = 0; i < count; ++i) {
-    frame.network.elements.emplace_back("stop" + std::to_string(i), ElementType::gap,
-                                        Node{NodeKind::prescribed, 0}, Node{NodeKind::mass, 0});
-    frame.network.elements.back().bends = {{1.0, &laws::elastic_stop}};
-    frame.values.element.push_back(k);
-    frame.values.second.push_back(c);
-    frame.values.bends.push_back({{clearance, k, c}});
-  }
-  return frame;
-}
-
-TEST_CASE("A frame between equal stops side by side is tuned as against one as stiff as all of them") {
-  const double clearance = 0.2 * scanned(Frame().task(false), {0.5});
-  const Frame one = with_stops(1, clearance), two = with_stops(2, clearance);
-  const Optimum alone = tune_over_records(one.task(false), 0, never),
-                together = tune_over_records(two.task(false), 0, never);
-  REQUIRE(alone.outcome == Outcome::converged);
-  CHECK(alone.objective > clearance);
-  REQUIRE(together.outcome == Outcome::converged);
-  CHECK_THAT(together.objective, Catch::WithinRel(alone.objective, kScanned));
-  CHECK_THAT(together.parameters[0].value[0], Catch::WithinRel(alone.parameters[0].value[0], 1e-4));
 }
 
 // Two storeys that are alike, side by side, and turn together; where only one of them is tuned the order
