@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solvers/events/joint_choice.hpp"
 #include "solvers/events/workspace.hpp"
 
 namespace frahm::periodic {
@@ -59,18 +60,20 @@ void add_arrivals(const Flow<N, H>& flow, ContactMask arrived, const Instant<N, 
   if (leader >= 0) add(leader, leader_slope, left);
 }
 
-// Whether the force of a contact falls where it lets go.
+// Whether a force falls where contacts let go, of those that stuck in one mode and slide in the next.
 template <int N, int H>
-bool falls_at_release(const StepEquations<N, H>& eq, Eigen::Index j) {
-  return eq.holds(j) && eq.static_limit[j] != eq.limit[j];
+bool falls_at_release(const Flow<N, H>& flow, const Mode<N, H>& before, const Mode<N, H>& after) {
+  const StepEquations<N, H>& eq = flow.equations();
+  return !eq.monotone && some_fall(eq, before.stuck & ~flow.at_rest(after) & eq.holding);
 }
 
-// A force lambda that reaches its limit leaves a unchanged, unless it falls from a static limit: then
+// A force lambda that reaches its limit leaves a unchanged, unless it, or another with it, falls from a
+// static limit: then
 //   dv+ = dv- + (a+ - a-) (grad lambda dz-) / lambda'
 template <int N, int H>
 void add_release(const Flow<N, H>& flow, Eigen::Index j, const Instant<N, H>& before,
                  const Mode<N, H>& mode_before, Workspace<N, H>& w) {
-  if (!falls_at_release(flow.equations(), j)) return;
+  if (!falls_at_release(flow, mode_before, flow.mode(w.mode))) return;
   const double slope = flow.stuck_force(before, mode_before, j).slope;
   if (slope == 0.0) return;
   w.jumps.push_back(

@@ -219,12 +219,12 @@ template <int N, int H>
 double PassageSensitivity<N, H>::let_go(const Event& change, const PassageStep<N, H>& before,
                                         const PassageStep<N, H>& after, typename S::State& delta) {
   const Eigen::Index n = flow_.equations().masses();
-  const bool shares = contains(flow_.mode(after.mode).stuck, change.contact);
+  const bool shares = !contains(flow_.mode(before.mode).stuck, change.contact);
   const std::size_t sticking = shares ? after.mode : before.mode;
   mode(sticking);
   const double force = stuck_force(sticking, shares ? after.left : before.right, delta, change.contact);
   const double shift = (change.side * by_->static_limit[change.contact] - force) / change.slope;
-  if (!shares && falls_at_release(flow_.equations(), change.contact))
+  if (!shares && falls_at_release(flow_, flow_.mode(before.mode), flow_.mode(after.mode)))
     delta.segment(n, n) += (before.right.a - after.left.a) * shift;
   return shift;
 }

@@ -150,10 +150,7 @@ const char* MotionSensitivity::cross_bends(periodic::ContactMask bent, const Ste
 }
 
 bool MotionSensitivity::falls_from_limit(periodic::ContactMask released) const {
-  for (Index j = 0; j < flow_.equations().contacts(); ++j) {
-    if (periodic::contains(released, j) && periodic::falls_at_release(flow_.equations(), j)) return true;
-  }
-  return false;
+  return periodic::some_fall(flow_.equations(), released & flow_.equations().holding);
 }
 
 void MotionSensitivity::keep_ending(const Step& last) {
