@@ -228,9 +228,9 @@ Trial Search::trial(const Held& held, ContactMask forward) const {
   for (const Index i : held.sticking) check_stuck(held, i, result);
   for (const Index i : held.sliding) check_sliding(i, result);
   const ContactMask lets_go = rest_.letting_go & held.stuck;
-  choice.on_edge |= lets_go & held.loops;  // the others may hold it
-  if ((lets_go & ~held.loops) != 0 && held.stuck == all() && rest_.stuck_before == all())
-    result.lets_go = true;
+  const bool nothing_changes = held.stuck == all() && rest_.stuck_before == all();
+  if (nothing_changes) choice.on_edge |= lets_go & held.loops;  // the others may hold it
+  if (nothing_changes && (lets_go & ~held.loops) != 0) result.lets_go = true;
   result.kept = count(held.stuck & rest_.stuck_before);
   result.sum = choice.force.cwiseQuotient(rest_.limit).squaredNorm();
   return result;
@@ -258,7 +258,10 @@ void Search::check_stuck(const Held& held, Index i, Trial& trial) const {
     choice.on_edge |= bit(i);
   else
     choice.margin = std::min(choice.margin, room);
-  if (contains(rest_.letting_go & ~held.loops, i) && force >= 1.0 - kAtLimit) {
+  if (!contains(rest_.letting_go, i) || force < 1.0 - kAtLimit) return;
+  if (contains(held.loops, i)) {
+    choice.on_edge |= bit(i);
+  } else {
     trial.lets_go = true;
     trial.worst = i;
   }

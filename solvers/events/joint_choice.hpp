@@ -114,10 +114,10 @@ void start_chosen(Flow<N, H>& flow, ContactMask at_rest, const Choice& choice, W
 
 // Of these contacts, which stick with forces at their limits or slide without acceleration in this mode,
 // those that do otherwise just after this instant. letting_go: one of a loop, whose force has reached its
-// limit.
+// limit. Cold, as what follows: few events come here, and it stays out of the code of all others.
 template <int N, int H>
-ContactMask broken_claims(Flow<N, H>& flow, std::size_t index, ContactMask contacts, ContactMask letting_go,
-                          Workspace<N, H>& w) {
+[[gnu::cold]] ContactMask broken_claims(Flow<N, H>& flow, std::size_t index, ContactMask contacts,
+                                        ContactMask letting_go, Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
   const Mode<N, H>& mode = flow.mode(index);
   Instant<N, H> at = w.left;
@@ -158,8 +158,9 @@ ContactMask broken_claims(Flow<N, H>& flow, std::size_t index, ContactMask conta
 // letting_go: of them one whose force has reached its limit here. others: the choice for the other contacts
 // of at_rest.
 template <int N, int H>
-Choice choose_group(Flow<N, H>& flow, ContactMask group, ContactMask letting_go, const Eigen::VectorXd& free,
-                    ContactMask at_rest, const Choice& others, Workspace<N, H>& w) {
+[[gnu::cold]] Choice choose_group(Flow<N, H>& flow, ContactMask group, ContactMask letting_go,
+                                  const Eigen::VectorXd& free, ContactMask at_rest, const Choice& others,
+                                  Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
   const std::vector<Eigen::Index> contacts = list_of(group);
   const auto m = static_cast<Eigen::Index>(contacts.size());
@@ -190,7 +191,8 @@ Choice choose_group(Flow<N, H>& flow, ContactMask group, ContactMask letting_go,
   };
   const auto broken = [&](const RestChoice& of) {
     const std::size_t mode = chosen_mode(flow, at_rest, choice_of(of) | others, w);
-    return entries_of(broken_claims(flow, mode, contacts_of(of.on_edge), letting_go, w));
+    const ContactMask lets_go = of.stuck == entries_of(group) ? letting_go : 0;  // else its force has changed
+    return entries_of(broken_claims(flow, mode, contacts_of(of.on_edge), lets_go, w));
   };
   const RestChoice chosen = admissible_choice(rest, broken);
   if (!chosen.found) w.undecided = kNoneAdmissible;

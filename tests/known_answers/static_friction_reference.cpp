@@ -15,9 +15,10 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::RowVectorXd, Eigen::VectorXd;
 using periodic::first_end, periodic::SeriesOverStep;
 using Ways = std::vector<int>;  // of each contact: 0 sticks, +1, -1 slides
 
-constexpr double kEdge = 1e-9;     // relative: decided by derivatives
-constexpr double kZero = 1e-10;    // a derivative below it is zero [1/s^k]
-constexpr double kLittle = 1e-13;  // rounding of a guard, counted in its limit
+constexpr double kEdge = 1e-9;       // relative: decided by derivatives
+constexpr double kZero = 1e-10;      // a derivative below it is zero [1/s^k]
+constexpr double kLittle = 1e-13;    // rounding of a guard, counted in its limit
+constexpr double kTogether = 1e-11;  // guards that are zero at one instant
 constexpr Index kTerms = 24;
 
 // A form of the state that is positive while a way lasts, counted in its limit; and whose way it is.
@@ -180,6 +181,10 @@ double Follower::broken_by(const Ways& ways, unsigned at_rest, unsigned expected
       continue;
     }
     edge |= guard.of;
+    if (!guard.slides && (guard.of & expected) != 0) {  // it is about to be broken: that is the event
+      worst = std::max(worst, 1.0);
+      continue;
+    }
     double first = 0.0;
     for (int k = 0; k < 6 && std::abs(first) < kZero; ++k) {
       x = p.A * x;
@@ -317,10 +322,16 @@ void Follower::move_to(double end) {
       of = p.guards[i].of;
     }
     const double part = std::min(first, 1.0);
-    for (std::size_t i = 0; i < p.guards.size(); ++i) {
+    // Contacts that stick tie velocities of others together, which then reach zero at one instant.
+    for (std::size_t i = 0; first <= 1.0 && i < p.guards.size(); ++i) {
       const SeriesOverStep g{polynomials[i].data(), kTerms};
-      if ((p.guards[i].of & of) == 0) note_near(g, part);
-      if (first <= 1.0 && (p.guards[i].of & of) == 0 && g(part) < kNear) motion_.is_near = true;
+      if (std::abs(g(part)) < kTogether && g.slope(part) < 0.0) of |= p.guards[i].of;
+    }
+    for (std::size_t i = 0; i < p.guards.size(); ++i) {
+      if ((p.guards[i].of & of) != 0) continue;
+      const SeriesOverStep g{polynomials[i].data(), kTerms};
+      note_near(g, part);
+      if (first <= 1.0 && g(part) < kNear) motion_.is_near = true;
     }
     note_peaks(series, part);
     x_ = series.col(kTerms - 1);

@@ -247,26 +247,19 @@ Tally follow_systems(unsigned first, unsigned count) {
 }
 
 void check(unsigned count) {
+  constexpr double kDecided = 0.95;  // of the systems no decision lies within 1e-6 of its limit
   const Tally tally = follow_systems(0, count);
   INFO(tally.agree << " agree, " << tally.near << " near a limit, " << tally.none_admissible
                    << " without an admissible choice, " << tally.wrong << " wrong, " << tally.chatters
                    << " too much for the reference, " << tally.events << " events");
   const auto all = static_cast<int>(count);
   CHECK(tally.wrong == 0);
-  CHECK(tally.agree > 0.9 * all);
+  CHECK(tally.agree > kDecided * all);
   CHECK(tally.chatters == 0);
-  if (count > 1000)
-    WARN(tally.agree << " agree, " << tally.near << " near a limit, " << tally.none_admissible
-                     << " without an admissible choice, " << tally.wrong << " wrong, " << tally.chatters
-                     << " too much for the reference");
 }
 
-TEST_CASE("150 random systems with static friction move from rest as an independent integration says",
+TEST_CASE("2000 random systems with static friction move from rest as an independent integration says",
           "[slow]") {
-  check(150);
-}
-
-TEST_CASE("So do 2000", "[long]") {
   check(2000);
 }
 
