@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "solvers/events/joint_choice.hpp"
 #include "solvers/events/passage.hpp"
 #include "solvers/events/rest_problem.hpp"
 #include "solvers/events/workspace.hpp"
@@ -59,30 +60,6 @@ void start_sliding(Eigen::Index j, FirstMotion first, Workspace<N, H>& w) {
   if (first.power > 1) w.just_released |= bit(j);
 }
 
-// The contacts at rest at w.left, which all stick in w.mode.
-template <int N, int H>
-RestProblem rest_problem(const Flow<N, H>& flow, ContactMask contacts, const Workspace<N, H>& w) {
-  constexpr double kWithoutBound = 1e9;
-  const StepEquations<N, H>& eq = flow.equations();
-  RestProblem rest;
-  rest.contacts = list_of(contacts);
-  const auto m = static_cast<Eigen::Index>(rest.contacts.size());
-  rest.W = eq.W(Eigen::all, rest.contacts);
-  rest.G = eq.mobility(rest.contacts, rest.contacts);
-  rest.weight = eq.limit(rest.contacts);
-  rest.bound = eq.static_limit(rest.contacts);
-  rest.force.resize(m);
-  rest.rate.resize(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Eigen::Index j = rest.contacts[static_cast<std::size_t>(i)];
-    if (contains(w.held, j)) rest.bound[i] = kWithoutBound * rest.weight[i];
-    const ValueAndSlope force = flow.stuck_force(w.left, flow.mode(w.mode), j);
-    rest.force[i] = force.value;
-    rest.rate[i] = force.slope;
-  }
-  return rest;
-}
-
 // These contacts at rest, which all stick in w.mode, share the forces; those at their bounds are idle.
 template <int N, int H>
 void share(Flow<N, H>& flow, const RestProblem& rest, const LeastShares& shares, Workspace<N, H>& w) {
@@ -117,6 +94,30 @@ ContactMask slide(Flow<N, H>& flow, const RestOutcome& outcome, Workspace<N, H>&
   return slides;
 }
 
+// Groups of these contacts at rest in which some force falls where it lets go, and which cannot all stay at
+// rest, are chosen anew. Returns the contacts that slide from now on.
+template <int N, int H>
+ContactMask slide_in_groups(Flow<N, H>& flow, const RestProblem& rest, ContactMask groups,
+                            ContactMask cannot_stay, Workspace<N, H>& w) {
+  const ContactMask contacts = flow.mode(w.mode).stuck & flow.equations().holding;
+  const Eigen::VectorXd free = rest.G * rest.force;
+  Choice choice{.stuck = contacts};
+  ContactMask slid = 0;
+  for (ContactMask open = groups & cannot_stay; open != 0;) {
+    const ContactMask group = acting_together(flow.equations(), groups, first(open));
+    open &= ~group;
+    std::vector<Eigen::Index> entries;
+    for (Eigen::Index i = 0; i < free.size(); ++i) {
+      if ((rest.at(i) & group) != 0) entries.push_back(i);
+    }
+    choice.stuck &= ~group;
+    choice = choice | choose_group(flow, group, rest.letting_go & group, free(entries), contacts, choice, w);
+    slid |= group & ~choice.stuck;
+  }
+  start_chosen(flow, contacts, choice, w);
+  return slid;
+}
+
 // The contacts at rest just after this instant: which slide, and how the others share the forces.
 // letting_go: one whose force has reached its limit here (0: none). Returns those that begin to slide.
 template <int N, int H>
@@ -132,13 +133,21 @@ ContactMask hold_together(Flow<N, H>& flow, ContactMask letting_go, Workspace<N,
     rest.letting_go = letting_go & contacts;
     const bool within = (rest.force.cwiseAbs().array() < (1.0 - kTie) * rest.bound.array()).all();
     if (within && rest.letting_go == 0) return slid;
-    const RestOutcome outcome = outcome_of(rest);
+    RestOutcome outcome = outcome_of(rest);
     if (!outcome.found) {
-      w.undecided = true;
+      w.undecided = kNotFound;
       return slid;
     }
     const std::size_t all = w.mode;
-    const ContactMask slides = outcome.slides != 0 ? slide(flow, outcome, w) : 0;
+    const ContactMask groups = in_falling_groups(flow.equations(), contacts);
+    ContactMask slides = 0;
+    if ((outcome.slides & groups) != 0) {
+      slides = slide_in_groups(flow, rest, groups, outcome.slides, w);
+      letting_go &= ~groups;
+      outcome.slides &= ~groups;
+      outcome.forward &= ~groups;
+    }
+    if (outcome.slides != 0) slides |= slide(flow, outcome, w);
     if (slides == 0) {
       w.mode = all;
       share(flow, rest, outcome.shares, w);

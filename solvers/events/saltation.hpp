@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solvers/events/coupled_groups.hpp"
+#include "solvers/events/joint_choice.hpp"
 #include "solvers/events/workspace.hpp"
 
 namespace frahm::periodic {
@@ -35,20 +36,22 @@ bool is_at_limit(const Flow<N, H>& flow, Eigen::Index j, const Instant<N, H>& at
   return std::abs(flow.stuck_force(at, mode, j).value) >= flow.equations().static_limit[j] * (1.0 - kRest);
 }
 
-// Of contacts that let go those whose force falls from its static limit: `own`, whose event it is, and others
-// that are at their limits at the same instant.
+// Of contacts that let go those at whose guards the acceleration jumps, because forces fall from static limits:
+// `own`, whose event it is, and others that are at their limits at the same instant. The force of `own` itself
+// may stay: what it releases may make others fall.
 template <int N, int H>
 ContactMask falling(const Flow<N, H>& flow, ContactMask own, const Instant<N, H>& before,
                     const Mode<N, H>& mode_before, const Mode<N, H>& mode) {
+  const StepEquations<N, H>& eq = flow.equations();
   ContactMask result = 0;
-  if (flow.equations().monotone) return result;
-  for (ContactMask left = (mode_before.stuck & ~mode.stuck) | own; left != 0; left &= left - 1) {
+  if (eq.monotone) return result;
+  const ContactMask released = mode_before.stuck & ~flow.at_rest(mode) & eq.holding;
+  for (ContactMask left = released | own; left != 0; left &= left - 1) {
     const Eigen::Index j = first(left);
-    if (falls_at_release(flow.equations(), j) &&
-        (contains(own, j) || is_at_limit(flow, j, before, mode_before)))
+    if (falls_at_release(eq, j) && (contains(own, j) || is_at_limit(flow, j, before, mode_before)))
       result |= bit(j);
   }
-  return result;
+  return result == 0 && some_fall(eq, released) ? own : result;
 }
 
 // The jumps of contacts that reach their guards together:

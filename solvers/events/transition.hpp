@@ -16,10 +16,13 @@
 //
 //   what happened                        law's answer            what follows
 //   a stuck force reaches its limit      -                       it slides in the force's direction; a force
-//                                                                that is a state stays there
+//                                                                that is a state stays there. One that falls
+//                                                                to its sliding force takes along what it
+//                                                                held: all at rest with it are chosen anew
 //   a sliding velocity reaches zero      it holds a velocity     the forces of all at rest solve one convex
 //                                                                problem: inside its limit a contact sticks,
-//                                                                at its limit it slides that way
+//                                                                at its limit it slides that way. Where
+//                                                                some hold more at rest: joint_choice.hpp
 //                                        its force is a state    it sticks
 //   a stuck force is at its limit        -                       it lets go at once (two contacts released
 //   and grows after all this                                     together, or one that came to rest in a tie)
@@ -86,12 +89,6 @@ class FreeAccelerations {
   Eigen::VectorXd parted_;
 };
 
-// The choice for contacts at rest.
-struct Choice {
-  ContactMask stuck = 0, forward = 0;
-  ContactMask at_limit = 0;  // of several, that stick with a force at its limit
-};
-
 // A single contact: it sticks if the force needed for this, c/G, is within the limit.
 template <int N, int H>
 Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Workspace<N, H>& w) {
@@ -103,9 +100,7 @@ Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Wor
 }
 
 // Several contacts: their forces minimise  1/2 lambda^T G lambda - c^T lambda,  |lambda_j| <= F_j,
-// G = W^T M^-1 W (Glocker, Set-Valued Force Laws, 2001, ch. 9). Where static limits are larger several
-// choices may be admissible. Contacts stick wherever they can: all are tried at their static limits; those
-// that reach them slide with F_j in that direction, and the others are tried again.
+// G = W^T M^-1 W (Glocker, Set-Valued Force Laws, 2001, ch. 9).
 template <int N, int H>
 Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
                        const FreeAccelerations<N, H>& free, Workspace<N, H>& w) {
@@ -120,24 +115,10 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
     for (Eigen::Index k = 0; k < m; ++k) G(i, k) = eq.mobility(j, contact(k));
     c[i] = free.of(j);
     weight[i] = eq.limit[j] > 0.0 ? eq.limit[j] : 1.0;
-    bound[i] = contains(w.held, j) ? kWithoutLimit * weight[i] : eq.static_limit[j];
+    bound[i] = contains(w.held, j) ? kWithoutLimit * weight[i] : eq.limit[j];
   }
-  Eigen::VectorXd least = -bound, most = bound;
-  BoxMinimum minimum = box_minimum(G, c, least, most, weight);
-  // Of those that have let go the force falls from F_s to F.
-  for (bool again = !eq.monotone; again && minimum.found;) {
-    again = false;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const double kinetic = eq.limit[contact(i)];
-      if (least[i] == most[i] || std::abs(minimum.lambda[i]) < bound[i] * (1.0 - kTie)) continue;
-      const double slip = (c - G * minimum.lambda)[i];
-      if (bound[i] == kinetic || std::abs(slip) <= kTie * (G(i, i) * weight[i] + std::abs(c[i]))) continue;
-      least[i] = most[i] = minimum.lambda[i] > 0.0 ? kinetic : -kinetic;
-      again = true;
-    }
-    if (again) minimum = box_minimum(G, c, least, most, weight);
-  }
-  if (!minimum.found) w.undecided = true;
+  const BoxMinimum minimum = box_minimum(G, c, -bound, bound, weight);
+  if (!minimum.found) w.undecided = kNotFound;
   const Eigen::VectorXd& force = minimum.lambda;
   const Eigen::VectorXd acceleration = c - G * force;
 
@@ -149,9 +130,8 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
     const double pull = std::abs(acceleration[i]) / size;
     // Of the sum c - G lambda: that of a weak contact beside strong ones.
     const double rounding = kRounding * G.row(i).cwiseAbs().dot(force.cwiseAbs()) / size;
-    const double room = (eq.static_limit[j] - std::abs(force[i])) / weight[i];
-    const bool has_let_go = least[i] == most[i];
-    const bool sticks = pull <= std::max(kTie, rounding) && limit > 0.0 && !has_let_go;
+    const double room = (limit - std::abs(force[i])) / weight[i];
+    const bool sticks = pull <= std::max(kTie, rounding) && limit > 0.0;
     if (sticks && room <= kTie && !contains(w.held, j))
       choice.at_limit |= bit(j);
     else if (limit > 0.0 && !contains(w.held, j))
@@ -172,27 +152,47 @@ void note_limits(Flow<N, H>& flow, const Choice& choice, Workspace<N, H>& w) {
   if ((choice.at_limit & ~flow.configuration(flow.mode(without)).idle) != 0) w.note_margin(0.0);
 }
 
+// The choice for contacts at rest. letting_go: one of them whose force has reached its limit here.
+template <int N, int H>
+Choice choose(Flow<N, H>& flow, ContactMask at_rest, ContactMask letting_go,
+              const FreeAccelerations<N, H>& free, Workspace<N, H>& w) {
+  const StepEquations<N, H>& eq = flow.equations();
+  ContactMask falling = in_falling_groups(eq, at_rest);
+  const ContactMask others = at_rest & ~falling;
+  Choice choice;
+  if (count(others) == 1)
+    choice = choose_alone(eq, first(others), free.of(first(others)), w);
+  else if (others != 0)
+    choice = choose_together(eq, others, free, w);
+  while (falling != 0) {
+    const ContactMask group = acting_together(eq, falling, first(falling));
+    falling &= ~group;
+    if (count(group) == 1 && (group & letting_go) == 0) {
+      choice = choice | choose_alone(eq, first(group), free.of(first(group)), w);
+      continue;
+    }
+    const std::vector<Eigen::Index> contacts = list_of(group);
+    Eigen::VectorXd c(static_cast<Eigen::Index>(contacts.size()));
+    for (std::size_t i = 0; i < contacts.size(); ++i) c[static_cast<Eigen::Index>(i)] = free.of(contacts[i]);
+    const Choice beside = choice | Choice{.stuck = falling};
+    choice = choice | choose_group(flow, group, letting_go & group, c, at_rest, beside, w);
+  }
+  return choice;
+}
+
 // The mode in which all contacts at rest whose velocity is held are chosen together.
 template <int N, int H>
-void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
-  const Mode<N, H>& before = flow.mode(w.mode);
+void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w, ContactMask letting_go = 0) {
   const StepEquations<N, H>& eq = flow.equations();
   FreeAccelerations<N, H> free(flow, at_rest, w);
-  Choice choice = count(at_rest) == 1 ? choose_alone(eq, first(at_rest), free.of(first(at_rest)), w)
-                                      : choose_together(eq, at_rest, free, w);
-  ContactMask parted = 0;
+  Choice choice = choose(flow, at_rest, letting_go, free, w);
   if (eq.has_loops && flow.moving_support() && are_parted(eq, choice.stuck)) {
     free.add(parting(eq, w.left));
     const ContactMask stuck_now = choice.stuck;
-    choice = choose_together(eq, at_rest, free, w);
-    parted = stuck_now & ~choice.stuck;
+    choice = choose(flow, at_rest, letting_go, free, w);
+    choice.slow |= stuck_now & ~choice.stuck;
   }
-  const ContactMask sliding = at_rest & ~choice.stuck;
-  w.fresh |= sliding;
-  w.just_released = (w.just_released & ~sliding) | parted;
-  const ContactMask states = before.stuck & ~eq.holding;  // internal forces, which no choice concerns
-  w.mode =
-      flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward, before.beyond);
+  start_chosen(flow, at_rest, choice, w);
   if (choice.at_limit != 0) note_limits(flow, choice, w);
 }
 
@@ -212,6 +212,17 @@ void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w)
   w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0), before.beyond);
 }
 
+// The stuck contact j lets go. Where forces fall with its own, all that are at rest with it are chosen anew.
+template <int N, int H>
+void let_go(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w) {
+  const StepEquations<N, H>& eq = flow.equations();
+  if (!eq.monotone && eq.holds(j)) {
+    const ContactMask group = acting_together(eq, at_rest(flow, w), j);
+    if (count(group) > 1 && some_fall(eq, group)) return choose_modes(flow, group, w, bit(j));
+  }
+  release(flow, j, forward, w);
+}
+
 // Stuck contacts whose force is at its limit and grows let go at once.
 template <int N, int H>
 void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
@@ -219,13 +230,13 @@ void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
     again = false;
     for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
       const Mode<N, H>& mode = flow.mode(w.mode);
-      if (!contains(mode.stuck & ~w.held & flow.equations().holding, j)) continue;
+      if (!contains(mode.stuck & ~w.held & ~w.settled & flow.equations().holding, j)) continue;
       const ValueAndSlope force = flow.stuck_force(w.left, mode, j);
       const double side = force.value > 0.0 ? 1.0 : -1.0;
       const double limit = flow.equations().static_limit[j], size = side * force.value;
       if (size < limit * (1.0 - kTie) || (side * force.slope <= 0.0 && size <= limit * (1.0 + 1e-9)))
         continue;
-      release(flow, j, side > 0.0, w);
+      let_go(flow, j, side > 0.0, w);
       again = true;
     }
   }
@@ -239,16 +250,19 @@ void settle_mode(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
   flow.accelerate(flow.mode(w.mode), w.left);
   if (flow.equations().has_loops) {
     const ContactMask slid = hold_together(flow, letting_go, w);
-    const bool stays = slid == 0 && (letting_go & flow.mode(w.mode).stuck) != 0;
-    if (stays) {  // its force only just grows
+    const ContactMask stuck = flow.mode(w.mode).stuck;
+    if (slid == 0 && (letting_go & stuck) != 0) {  // its force only just grows
       const Eigen::Index j = first(letting_go);
-      release(flow, j, flow.stuck_force(w.left, flow.mode(w.mode), j).value > 0.0, w);
+      const bool forward = flow.stuck_force(w.left, flow.mode(w.mode), j).value > 0.0;
+      let_go(flow, j, forward, w);
+      if (flow.mode(w.mode).stuck == stuck) release(flow, j, forward, w);
     }
     if (letting_go != 0) slide_on(flow, w);
   } else {
     release_at_limits(flow, w);
   }
   flow.accelerate(flow.mode(w.mode), w.left);
+  w.settled = 0;
 }
 
 // The mode after the contacts of `arrived` came to rest, and the contact `released` (-1: none) let go forward
@@ -256,21 +270,26 @@ void settle_mode(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
 template <int N, int H>
 void change_mode(Flow<N, H>& flow, ContactMask arrived, Eigen::Index released, bool forward,
                  Workspace<N, H>& w) {
-  const ContactMask holding = flow.equations().holding;
+  const StepEquations<N, H>& eq = flow.equations();
+  const ContactMask holding = eq.holding, held_now = arrived & holding;
   ContactMask letting_go = 0;
+  const bool holds = released >= 0 && contains(holding, released);
   if (released >= 0) {
-    const bool holds = contains(holding, released);
-    if (holds && flow.equations().has_loops)
+    const bool with_arrivals =
+        holds && held_now != 0 && contains(in_falling_groups(eq, at_rest(flow, w) | held_now), released);
+    if (holds && (eq.has_loops || with_arrivals))
       letting_go = bit(released);
     else
-      release(flow, released, forward, w);
+      let_go(flow, released, forward, w);
     if (holds && letting_go == 0) slide_on(flow, w);
   }
   if (const ContactMask states = arrived & ~holding; states != 0) {
     const Mode<N, H>& mode = flow.mode(w.mode);
     w.mode = flow.mode_index(mode.stuck | states, mode.positive, mode.beyond);
   }
-  if ((arrived & holding) != 0) choose_modes(flow, at_rest(flow, w) | (arrived & holding), w);
+  if (held_now != 0) choose_modes(flow, at_rest(flow, w) | held_now, w, letting_go);
+  if (holds && !eq.has_loops && letting_go != 0) slide_on(flow, w);
+  letting_go &= ~w.settled;
   settle_mode(flow, letting_go, w);
 }
 

@@ -33,7 +33,7 @@ class Walk {
  private:
   void open(double phase, Passage<N, H>& passage, PassageSteps<N, H>* steps);
   bool keeps_mode(double phase);
-  void enter(double phase);
+  void enter(double phase, ContactMask stuck_before = 0);
   void begin(Passage<N, H>& passage);
   void follow(double phase, double length, Passage<N, H>& passage);
   void begin_tangent(Passage<N, H>& passage) const;

@@ -28,7 +28,7 @@ void Walk<N, H>::go_on(double phase, double length, Passage<N, H>& passage, Pass
   passage.has_path = passage.has_tangent = false;
   w_.held = 0;
   open(phase, passage, steps);
-  if (!keeps_mode(phase)) enter(phase);
+  if (!keeps_mode(phase)) enter(phase, flow_.at_rest(flow_.mode(w_.mode)));
   begin(passage);
   follow(phase, length, passage);
 }
@@ -63,7 +63,7 @@ void Walk<N, H>::follow(double phase, double length, Passage<N, H>& passage) {
       if (at_this_instant > 8 + 4 * (flow_.equations().contacts() + flow_.equations().bends.count()))
         passage.failure = "the contacts chatter at one instant";
       if (passage.events > kMostEvents) passage.failure = "more than 20000 events in one passage";
-      if (w_.undecided) passage.failure = "the friction forces of contacts at rest were not found";
+      if (w_.undecided != nullptr) passage.failure = w_.undecided;
     } else if (room <= 1.0) {
       if (room == 1.0)
         take_step(passage);
@@ -128,7 +128,7 @@ void Walk<N, H>::open(double phase, Passage<N, H>& passage, PassageSteps<N, H>* 
   if (steps_ != nullptr) steps_->clear();
   w_.clock = 0.0;
   w_.margin = 1.0;
-  w_.undecided = false;
+  w_.undecided = nullptr;
   w_.behind = 0.0;
   w_.knows_left = false;
   passage.energy_scale = flow_.energy_scale(w_.left.z, phase);
@@ -137,6 +137,7 @@ void Walk<N, H>::open(double phase, Passage<N, H>& passage, PassageSteps<N, H>* 
 
 template <int N, int H>
 void Walk<N, H>::begin(Passage<N, H>& passage) {
+  if (w_.undecided != nullptr) passage.failure = w_.undecided;
   passage.starts_at_event = (w_.fresh | w_.at_place) != 0;
   begin_tangent(passage);
   open_segment(passage);
@@ -163,9 +164,9 @@ bool Walk<N, H>::keeps_mode(double phase) {
   return true;
 }
 
-// The mode at the start of a passage.
+// The mode at the start of a passage. stuck_before: contacts that stuck up to now.
 template <int N, int H>
-void Walk<N, H>::enter(double phase) {
+void Walk<N, H>::enter(double phase, ContactMask stuck_before) {
   const StepEquations<N, H>& eq = flow_.equations();
   w_.fresh = w_.just_released = 0;
 
@@ -184,7 +185,8 @@ void Walk<N, H>::enter(double phase) {
     }
     if (std::abs(speed) <= w_.rest_speed[j]) at_rest |= bit(j);
   }
-  w_.mode = flow_.mode_index(stuck_states, positive & ~at_rest, beyond);
+  const ContactMask stick_on = eq.monotone ? 0 : stuck_before & at_rest;
+  w_.mode = flow_.mode_index(stuck_states | stick_on, positive & ~at_rest, beyond);
   if (at_rest != 0) choose_modes(flow_, at_rest, w_);
   settle_mode(flow_, 0, w_);
 }

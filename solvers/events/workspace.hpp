@@ -30,11 +30,13 @@ struct Workspace {
   double behind = 0.0;               // steps since the last stretch of the path ended
   ContactMask fresh = 0;             // sliding contacts whose velocity is zero at `left`
   ContactMask just_released = 0;     // fresh contacts whose relative acceleration is zero too
-  ContactMask free = 0;              // bends past their place that push no more (bend_guards.hpp)
-  ContactMask at_place = 0, without_force = 0;                       // bends whose guard is zero at `left`
+  // Contacts chosen at this instant with regard to what follows just after it: nothing is left to decide.
+  ContactMask settled = 0;
+  ContactMask free = 0;                         // bends past their place that push no more (bend_guards.hpp)
+  ContactMask at_place = 0, without_force = 0;  // bends whose guard is zero at `left`
   std::vector<JumpOf<typename S::Vector, typename S::State>> jumps;  // of the tangent, at the current event
   double margin = 1.0;                                               // see Passage::margin
-  bool undecided = false;                                            // a joint choice found no answer
+  const char* undecided = nullptr;                                   // why a joint choice found no answer
 
   // Scales of the contacts' velocities [m a step] and forces [N]: those of the larger of the state's and the
   // static response's energy, plus a support's own motion.

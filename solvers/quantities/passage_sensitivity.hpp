@@ -279,10 +279,7 @@ void PassageSensitivity<N, H>::list_guards(const Event& change, const Side& befo
   for (ContactMask left = released & ~change.let_go; left != 0; left &= left - 1) {
     if (!is_at_limit(flow_, first(left), before.at, mode_before)) released &= ~bit(first(left));
   }
-  ContactMask falls = 0;
-  for (ContactMask left = eq.monotone ? 0 : released; left != 0; left &= left - 1) {
-    if (falls_at_release(eq, first(left))) falls |= bit(first(left));
-  }
+  ContactMask falls = falling(flow_, change.let_go & mode_before.stuck, before.at, mode_before, mode_after);
   ContactMask arrived = change.arrived, by_place = change.at_place & turned;
   if (arrived != 0) arrived &= ~flow_.at_rest(mode_before);
   for (ContactMask left = by_place & eq.bends.of_velocity; left != 0; left &= left - 1) {

@@ -13,14 +13,15 @@ namespace frahm::transient {
 using Eigen::Index;
 using periodic::contains, periodic::ContactMask;
 
-// The contacts that stick from here on, and those that no longer do.
+// The contacts that rest from here on, and those that no longer do. One that others hold rests too.
 void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at,
                            const State& z) {
-  const bool same_contacts = has_mode_ && mode.stuck == stuck_ && mode.positive == positive_;
+  const ContactMask resting = flow_.at_rest(mode);
+  const bool same_contacts = has_mode_ && resting == stuck_ && mode.positive == positive_;
   if (same_contacts && mode.beyond == beyond_) return;
   const auto& eq = flow_.equations();
   const State creeps_to = has_mode_ && kept_.rest ? resting_state(z) : z;
-  const ContactMask stopped = mode.stuck & ~stuck_, released = stuck_ & ~mode.stuck;
+  const ContactMask stopped = resting & ~stuck_, released = stuck_ & ~resting;
   for (Index j = 0; j < eq.contacts(); ++j) {
     auto& stops = stops_[static_cast<std::size_t>(j)];
     if (contains(released, j)) stops.back().release = at;
@@ -33,8 +34,8 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
     }
   }
   if (released != 0) crept_ = false;
-  const bool same_stuck = has_mode_ && mode.stuck == stuck_;
-  stuck_ = mode.stuck;
+  const bool same_stuck = has_mode_ && resting == stuck_;
+  stuck_ = resting;
   positive_ = mode.positive;
   note_touches(mode.beyond, at);
   has_mode_ = true;
