@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -44,6 +45,14 @@ void rewrite_numbers(hdf5::Dataset& dataset, const Variable& variable, const Wor
   if (!numbers.empty()) dataset.write(Shape(shape.size(), 0), shape, to_storage(variable, numbers));
 }
 
+// All are written anew, which keeps their order.
+void replace_texts(hdf5::Group& group, const std::vector<Text>& by) {
+  for (const auto& [name, text] : group.texts()) {
+    const auto found = std::ranges::find(by, name, &Text::first);
+    group.replace_text(name, found == by.end() ? text : found->second);
+  }
+}
+
 void reword_group(const hdf5::Group& group, const std::string& path, const WordsOf& words_of) {
   for (const std::string& name : group.dataset_names()) {
     hdf5::Dataset dataset = group.dataset(name);
@@ -69,7 +78,7 @@ void reword(const std::filesystem::path& result, const Rewording& to) {
     root.replace_text("title", to.title);
     for (const auto& [group, texts] : to.texts) {
       hdf5::Group of = root.group(group);
-      for (const auto& [name, text] : texts) of.replace_text(name, text);
+      replace_texts(of, texts);
     }
     reword_group(root, "", to.words_of);
   }

@@ -25,7 +25,7 @@ using WordsOf = std::function<std::optional<Words>(const std::string& group, con
 // Words and units of a result, in place of those that its file has.
 struct Rewording {
   std::string title;
-  std::vector<std::pair<std::string, std::vector<Text>>> texts;  // of groups: only those named here change
+  std::vector<std::pair<std::string, std::vector<Text>>> texts;  // of groups: of those they have
   WordsOf words_of;
 };
 
