@@ -169,6 +169,13 @@ void Object::write_text(const std::string& name, const std::string& text) {
           what);  // c_str(): one byte even if empty
 }
 
+void Object::replace_text(const std::string& name, const std::string& text) {
+  const std::string what = "cannot replace attribute " + name;
+  if (checked(H5Aexists(id(), name.c_str()), where_, what) > 0)
+    checked(H5Adelete(id(), name.c_str()), where_, what);
+  write_text(name, text);
+}
+
 void Object::write_numbers(const std::string& name, const Variable& as, std::span<const double> values) {
   const std::string what = "cannot write attribute " + name;
   const hid_t type = numeric_type(as.type);
@@ -339,6 +346,14 @@ File File::open(const std::filesystem::path& path) {
   keep_to_ourselves(access, path.string());
   return File(Handle(checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), path.string(),
                              "cannot open the file")),
+              path.string());
+}
+
+File File::open_to_change(const std::filesystem::path& path) {
+  const Handle access = file_access(path.string());
+  return File(Handle(checked(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), path.string(),
+                             "cannot open the file to change it"),
+                     std::make_shared<std::string>()),
               path.string());
 }
 

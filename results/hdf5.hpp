@@ -51,7 +51,8 @@ class Object {
   // byte.
   void write_text(const std::string& name, const std::string& text);
   void write_numbers(const std::string& name, const Variable& as,
-                     std::span<const double> values);  // shape [n]
+                     std::span<const double> values);                   // shape [n]
+  void replace_text(const std::string& name, const std::string& text);  // write_text() where it is there too
 
   // The attribute, if it exists: a single string, of fixed or variable length.
   std::optional<std::string> text(const std::string& name) const;
@@ -150,6 +151,7 @@ class File {
  public:
   static File create(const std::filesystem::path& path);  // replaces a file there
   static File open(const std::filesystem::path& path);    // to read
+  static File open_to_change(const std::filesystem::path& path);
 
   Group root() const;
   // Hands everything written to the operating system, or throws StoreError. Close groups and datasets before.

@@ -18,8 +18,7 @@ bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
   std::error_code ignored;  // one that is not there is not the other
   if (from.empty() || !std::filesystem::equivalent(from, output, ignored)) return false;
   const results::MapReader standing(output);
-  return fingerprint_of(standing) != plan.fingerprint || is_part(standing) ||
-         !words_changed_since(standing, output, plan.study).empty();
+  return fingerprint_of(standing) != plan.fingerprint || is_part(standing);
 }
 
 void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::filesystem::path& from,

@@ -10,7 +10,7 @@
 // `frahm run --from OLD.h5`: checks for a map that takes points over from an earlier result.
 namespace frahm::studies {
 
-// Whether the result replaces the one it grows from, which has another grid, title or [report] or is partial:
+// Whether the result replaces the one it grows from, which has another grid or is partial:
 // the old one is then no obstacle and stays until the new one is complete.  from: empty: the run has no
 // --from.
 bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,

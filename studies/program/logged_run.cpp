@@ -24,16 +24,42 @@
 namespace frahm::studies {
 namespace {
 
-// Notes that a finished result has another title or [report] than its study.
-void tell_words(const StudyPlan& plan, const results::MapReader& finished,
-                const std::filesystem::path& output, std::ostream& out) {
-  const std::vector<std::string> changed = words_changed_since(finished, output, plan.study);
-  if (changed.empty()) return;
-  const std::string way = plan.study.map()
-                              ? fmt::format("add --from {} to write it anew from its points", output.string())
-                              : "--fresh computes it anew";
-  fmt::print(out, "note: {} of the study {} of {}: {}\n", fmt::join(changed, " and "),
-             changed.size() > 1 ? "are not those" : "is not that", output.string(), way);
+// Writes the words of the study into its finished result: titles, units and whatever else changes no number.
+// Returns what changed.
+std::vector<std::string> write_words(const StudyPlan& plan, const LoggedWork& work,
+                                     const std::filesystem::path& output) {
+  const engine::OutputLock lock(output);
+  const results::MapReader finished(output);
+  if (fingerprint_of(finished) != plan.fingerprint || is_part(finished)) return {};  // changed meanwhile
+  OtherWords other = other_words(finished, output, plan);
+  if (other.changes.empty()) return {};
+  results::Rewording words = work.words(*other.kept, finished);
+  std::vector<results::Text> changed;
+  std::erase_if(words.texts, [&](auto& of_group) {
+    const bool is_provenance = of_group.first == "provenance";
+    if (is_provenance) changed = std::move(of_group.second);
+    return is_provenance;
+  });
+  words.texts.emplace_back("provenance", provenance_in_words(finished.texts("provenance"), plan, changed));
+  results::reword(output, words);
+  return other.changes;
+}
+
+// The same, told; a shard of several leaves that to a run of its own.
+void mend_words(const StudyPlan& plan, const LoggedWork& work, const results::MapReader& finished,
+                const engine::RunOptions& run, std::ostream& out) {
+  try {
+    if (run.shard.count > 1 || other_words(finished, run.output, plan).changes.empty()) return;
+    const std::vector<std::string> changes = write_words(plan, work, run.output);
+    if (!changes.empty())
+      fmt::print(out, "what changed is written into {}, and nothing is computed:\n{}", run.output.string(),
+                 lines_of_changes(changes));
+  } catch (const StudyError& unreadable) {
+    fmt::print(out,
+               "note: {} has other words than this study, which stay: its own study can no longer be "
+               "read ({})\n",
+               run.output.string(), unreadable.what());
+  }
 }
 
 // The logs of the finished result at `output`, which may have grown from another file than it would now.
@@ -61,10 +87,9 @@ std::optional<results::MapReader> finished_result(const StudyPlan& plan,
   if (!std::filesystem::exists(output)) return std::nullopt;
   results::MapReader standing(output);
   const engine::Fingerprint kept = fingerprint_of(standing);
-  if (kept == plan.fingerprint)
-    return is_part(standing) ? std::nullopt : std::optional(std::move(standing));
-  const bool could_grow = kept.physics == plan.fingerprint.physics && plan.study.map() &&
-                          kind_of(standing) == ResultKind::map;
+  if (kept == plan.fingerprint) return is_part(standing) ? std::nullopt : std::optional(std::move(standing));
+  const bool could_grow =
+      kept.physics == plan.fingerprint.physics && plan.study.map() && kind_of(standing) == ResultKind::map;
   throw engine::ResumeRefused(
       output, kept, plan.fingerprint,
       refusal_advice(changes_since(standing, output, plan),
@@ -176,7 +201,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   std::optional<engine::OutputLock> lock;
   if (const auto finished = begin(plan, run, options.from, lock)) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
-    tell_words(plan, *finished, run.output, out);
+    mend_words(plan, work, *finished, run, out);
     return work.tell_what_stands();
   }
   const engine::Summary summary = compute(plan, work.job(), run);

@@ -7,6 +7,8 @@
 
 #include "engine/output_lock.hpp"
 #include "engine/run.hpp"
+#include "results/map_reader.hpp"
+#include "results/rewording.hpp"
 #include "studies/program/run_command.hpp"
 #include "studies/record/assembly_options.hpp"
 #include "studies/record/provenance.hpp"
@@ -30,6 +32,8 @@ struct LoggedWork {
   std::function<engine::Job()> job;  // the job to compute; called once, with the lock of the output held
   // Makes the file; false if it was stopped.
   std::function<bool(const RunRecord&, const AssemblyOptions&, const engine::OutputLock&)> assemble;
+  // The words of the study for a finished file that was made from another text of it.  kept: that text.
+  std::function<results::Rewording(const Study& kept, const results::MapReader& file)> words;
   std::function<int()> tell_what_stands;        // prints an existing file; returns the exit code
   std::function<int(const Effort&)> tell_made;  // prints a file just made
 };

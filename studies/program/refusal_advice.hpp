@@ -9,6 +9,9 @@
 
 namespace frahm::studies {
 
+// A line for each change, of many the first.
+std::string lines_of_changes(const std::vector<std::string>& changes);
+
 // What has changed since the result or the logs that are in the way of a run were made, a line for each, and
 // below it what to do; advice "": that which fits any other study.
 std::string refusal_advice(const std::vector<std::string>& changes, const std::string& advice = "");

@@ -17,7 +17,6 @@
 #include "studies/program/refusal_advice.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"
-#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -48,12 +47,6 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
     if (std::filesystem::equivalent(output, file, ignored))
       throw engine::IoError(output, "is a file that the study reads; name another for the result with -o");
   }
-}
-
-// An identification is computed again where nothing but its measured data has changed.
-void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
-  if (plan.study.identify() && has_same_document(output, plan.study)) return;
-  refuse_another_result(output, plan);
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
@@ -109,7 +102,7 @@ int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out
   refuse_own_data(plan.study, output);
   check_result_place(output, options.study, options.run.fresh);
   const engine::OutputLock lock(output);
-  if (!options.run.fresh) refuse_another_study(plan, output);
+  if (!options.run.fresh) refuse_another_result(output, plan);
   make_room_beside(output, plan, options.run.fresh);
 
   int code = exit_code::done;

@@ -4,6 +4,7 @@
 
 #include "studies/map/assemble.hpp"
 #include "studies/map/known_points.hpp"
+#include "studies/map/map_words.hpp"
 #include "studies/map/unfit_systems.hpp"
 #include "studies/program/growing.hpp"
 #include "studies/program/logged_run.hpp"
@@ -37,6 +38,8 @@ int run_map(const RunCommandOptions& options, Study study, std::ostream& out) {
   return run_in_logs(options, run, plan,
                      {.job = job,
                       .assemble = make_file,
+                      .words = [&](const Study& kept,
+                                   const results::MapReader& file) { return words_of_map(plan, kept, file); },
                       .tell_what_stands = [&] { return tell(std::nullopt); },
                       .tell_made = tell},
                      out);

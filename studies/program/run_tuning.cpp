@@ -14,6 +14,7 @@
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_record.hpp"
 #include "studies/tuning/tuning_table.hpp"
+#include "studies/tuning/tuning_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -68,12 +69,14 @@ int run_tuning(const RunCommandOptions& options, Study study, std::ostream& out)
                team_text(effort.threads, effort.ranks));
     return code;
   };
-  return run_in_logs(options, run, plan,
-                     {.job = [&] { return job_of_tuning(plan); },
-                      .assemble = make_file,
-                      .tell_what_stands = tell_what_stands,
-                      .tell_made = tell_made},
-                     out);
+  return run_in_logs(
+      options, run, plan,
+      {.job = [&] { return job_of_tuning(plan); },
+       .assemble = make_file,
+       .words = [&](const Study& kept, const results::MapReader&) { return words_of_tuning(plan, kept); },
+       .tell_what_stands = tell_what_stands,
+       .tell_made = tell_made},
+      out);
 }
 
 }  // namespace frahm::studies

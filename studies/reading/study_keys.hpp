@@ -33,6 +33,16 @@ enum class KeyForm {
   list_of_settings,
 };
 
+// What changes with a key (studies/record/fingerprint.hpp). Numbers and their units are of one use; the same
+// numbers in other units change only how a result is written.
+enum class Use {
+  physics,  // what is computed
+  grid,     // at which points, and what is computed beside them
+  shown,    // what a finished result is compared with
+  label,    // words and units of the file alone: a file with others gets them, and nothing is computed
+  nowhere,  // nothing by itself, as a section whose keys count
+};
+
 // A word that a key may be.
 struct StudyWord {
   const char* word = "";
@@ -88,14 +98,16 @@ struct Inside {
 struct StudyKey {
   // more: what is to be said beside, in any order.
   template <class... More>
-  constexpr StudyKey(const char* in, const char* name, KeyForm what, const char* told, const More&... more)
-      : section(in), key(name), form(what), meaning(told) {
+  constexpr StudyKey(const char* in, const char* name, KeyForm what, Use changes, const char* told,
+                     const More&... more)
+      : section(in), key(name), form(what), use(changes), meaning(told) {
     (take(more), ...);
   }
 
   const char* section;  // "" for the sections themselves; "excitation.force"; "{ value, unit }" of values
   const char* key;
   KeyForm form;
+  Use use;
   const char* meaning;
   std::span<const StudyWord> words{};  // of a choice: the first is the default, if there is one
   KeyOwners owners{};

@@ -62,10 +62,12 @@ const StudyKey* key_of(std::string_view section, std::string_view key) {
   return row == all.end() ? nullptr : &*row;
 }
 
-// What no result depends on.
-bool is_beside(std::string_view section, std::string_view key) {
-  return (section.empty() && key == "report") || (section == "study" && key == "title");
+// What no number depends on.
+bool is_label(std::string_view section, std::string_view key) {
+  const StudyKey* const row = key_of(section, key);
+  return row && row->use == Use::label;
 }
+enum class Labels { left_out, read };
 
 const std::string* text_in(const TomlValue& table, std::string_view key) {
   const TomlEntry* entry = find_entry(table, key);
@@ -95,6 +97,8 @@ std::string name_of(const TomlValue& table, const std::string& section, std::siz
 
 class FactReading {
  public:
+  explicit FactReading(Labels labels) : labels_(labels) {}
+
   Facts read(const TomlValue& document) {
     add_table(document, "", "");
     return std::move(facts_);
@@ -102,13 +106,15 @@ class FactReading {
 
  private:
   void add_table(const TomlValue& table, const std::string& section, const std::string& where) {
+    if (labels_ == Labels::left_out && has_labels_alone(section)) return;
     if (!where.empty()) {
       facts_.tables.insert(where);
       inside_.push_back(where);
     }
     const std::string unit = unit_of_numbers(table, section);
     for (const TomlEntry& entry : *table.as<TomlTable>()) {
-      if (is_beside(section, entry.key) || (!unit.empty() && entry.key == "unit")) continue;
+      const bool is_read = labels_ == Labels::read;
+      if (!is_read && (is_label(section, entry.key) || (!unit.empty() && entry.key == "unit"))) continue;
       add_entry(entry, section, where, unit);
     }
     if (!where.empty()) inside_.pop_back();
@@ -189,6 +195,13 @@ class FactReading {
     }
   }
 
+  static bool has_labels_alone(const std::string& section) {
+    const std::vector<std::string> keys = keys_of(section);
+    return !keys.empty() &&
+           std::ranges::all_of(keys, [&](const std::string& key) { return is_label(section, key); });
+  }
+
+  Labels labels_;
   UnitSystem units_;
   Facts facts_;
   std::vector<std::string> inside_;
@@ -253,21 +266,24 @@ std::string change_of_order(const Sequence& before, const Sequence& after) {
                             : fmt::format("the order of {}: {} is now before {}", before.name, *now, *first);
 }
 
-Facts facts_of(const TomlValue& document) {
-  return FactReading().read(document);
+Facts facts_of(const TomlValue& document, Labels labels = Labels::left_out) {
+  return FactReading(labels).read(document);
 }
 
 }  // namespace
 
-std::vector<std::string> document_changes(const TomlValue& kept, const TomlValue& now) {
-  const Facts before = facts_of(kept), after = facts_of(now);
+namespace {
+
+// is_same: of two facts of one name.
+template <class IsSame>
+std::vector<std::string> changes_of_facts(const Facts& before, const Facts& after, const IsSame& same) {
   std::vector<std::string> changes;
   const auto tell = [&](const std::string& line) {  // a table that is new or gone is told once
     if (std::ranges::find(changes, line) == changes.end()) changes.push_back(line);
   };
   for (const Fact& fact : before.list) {
     const Fact* found = after.find(fact.name);
-    if (found && is_same(fact, *found)) continue;
+    if (found && same(fact, *found)) continue;
     const std::string table = found ? "" : missing_table(fact, after);
     if (found)
       tell(change_of(fact, *found));
@@ -285,6 +301,20 @@ std::vector<std::string> document_changes(const TomlValue& kept, const TomlValue
     if (!change.empty()) tell(change);
   }
   return changes;
+}
+
+}  // namespace
+
+std::vector<std::string> document_changes(const TomlValue& kept, const TomlValue& now) {
+  return changes_of_facts(facts_of(kept), facts_of(now),
+                          [](const Fact& a, const Fact& b) { return is_same(a, b); });
+}
+
+std::vector<std::string> word_changes(const TomlValue& kept, const TomlValue& now) {
+  const auto is_written_the_same = [](const Fact& a, const Fact& b) {
+    return a.is_list == b.is_list && std::ranges::equal(a.items, b.items, {}, &Item::text, &Item::text);
+  };
+  return changes_of_facts(facts_of(kept, Labels::read), facts_of(now, Labels::read), is_written_the_same);
 }
 
 std::vector<std::string> rounding_changes(const TomlValue& kept, const TomlValue& now) {

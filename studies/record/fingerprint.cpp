@@ -211,8 +211,8 @@ void add_tuning(const Study& study, CanonicalText& text) {
     text.line("noise {} {} {}", static_cast<int>(tune.noise.kind), tune.noise.node, tune.noise.intensity);
   if (tune.dominate_constant) text.line("dominates its constant");
   for (const DesignChoice& design : tune.designs)
-    text.line("design {} {} {} knots {} slope {}", names[design.parameter], design.lower, design.upper,
-              fmt::join(design.knots, " "), design.max_slope);
+    text.line("design {} {} {} knots {} slope {} jumps {}", names[design.parameter], design.lower,
+              design.upper, fmt::join(design.knots, " "), design.max_slope, design.may_leap);
   for (const LimitChoice& limit : tune.limits)
     text.line("limit {} {} {} over {}", limit.name, limit.lower, limit.upper,
               limit.band ? band(*limit.band) : "all");
@@ -232,10 +232,10 @@ void add_assessment(const Study& study, CanonicalText& text) {
   for (const DesignChoice& design : study.tune()->designs) {
     if (design.rule) text.line("rule {}", design.rule->expression.canonical_text(names));
   }
+  // Limits in SI, or as the expression gives them: the column's unit is that of its record alone.
   for (const ColumnChoice& column : study.tune()->columns)
-    text.line("column {} {} {} {}{}", column.name, column.value.expression.canonical_text(names),
-              column.lower, column.upper,
-              column.si_factor == 1.0 ? "" : fmt::format(" {}", column.si_factor));
+    text.line("column {} {} {} {}", column.name, column.value.expression.canonical_text(names),
+              column.lower * column.si_factor, column.upper * column.si_factor);
   for (const ScenarioChoice& scenario : study.tune()->scenarios) text.line("named {}", scenario.name);
 }
 
@@ -260,8 +260,9 @@ void add_identification(const Study& study, CanonicalText& text) {
   if (!study.identify()) return;
   const IdentifyChoice& choice = *study.identify();
   const auto names = study.parameters.names();
-  text.line("method {} start {} curve {} cycles {}", static_cast<int>(choice.method),
-            static_cast<int>(choice.start), static_cast<int>(choice.curve), choice.cycles.value_or(0));
+  text.line("method {} start {} curve {} cycles {} offset {}", static_cast<int>(choice.method),
+            static_cast<int>(choice.start), static_cast<int>(choice.curve), choice.cycles.value_or(0),
+            choice.sensor_offset);
   const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
     if (value) text.line("{} {}", what, value->expression.canonical_text(names));
   };
@@ -272,8 +273,8 @@ void add_identification(const Study& study, CanonicalText& text) {
     text.line("fitted {} {} {} each record {} estimate {}", names[fitted.parameter], fitted.lower,
               fitted.upper, fitted.each_record, fitted.estimate);
   for (std::size_t i = 0; i < choice.fixed.size(); ++i)
-    text.line("fixed {} {} {}", names[choice.fixed[i].parameter], choice.fixed[i].value,
-              fmt::join(choice.fixed_covariance[i], " "));
+    text.line("fixed {} {} {} degrees of freedom {}", names[choice.fixed[i].parameter], choice.fixed[i].value,
+              fmt::join(choice.fixed_covariance[i], " "), choice.fixed[i].degrees_of_freedom);
   add_records(study, text);
 }
 
@@ -315,7 +316,7 @@ std::string physics_hash(const Study& study, std::span<const std::string> quanti
 void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
   const auto names = study.parameters.names();
   for (const GridDimension& dimension : map.dimensions) {
-    text.line("dimension {}", dimension.size);
+    text.line("dimension {} {}", dimension.name, dimension.size);
     if (dimension.axes.empty()) text.line("records {}", fmt::join(map.records->names, "\n"));
     for (const std::size_t a : dimension.axes) {
       const ParameterAxis& axis = map.axes[a];
@@ -329,8 +330,7 @@ void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
     text.line("orbit ends");
   }
   for (const DerivedCoordinate& coordinate : map.coordinates)
-    text.line("coordinate {} [{}] {} called {}", coordinate.name, coordinate.unit,
-              coordinate.value.expression.canonical_text(names), coordinate.long_name);
+    text.line("coordinate {} {}", coordinate.name, coordinate.value.expression.canonical_text(names));
 }
 
 void add_sweep(const Study& study, const SweepChoice& sweep, CanonicalText& text) {

@@ -18,9 +18,11 @@ struct Tiling {
 // A hash of all that the results of a study depend on (XXH3, 128 bits, as hex).
 // quantities: names of those recorded.
 // physics: network, definitions and values of the parameters (of those on an axis only that they are on one),
-// contents of tables, quantities, precision, version of the solver. grid: the axes' SI values, the
-// coordinates beside them and the tiles, a motion's duration and samples, or a tuning's starts, rules and
-// columns. Titles, comments, names of files, units and the order of the parameters change neither.
+// contents of tables, quantities, precision, version of the solver: what Use::physics says of a key. grid:
+// the names and SI values of the axes, the coordinates beside them and the tiles, a motion's duration and
+// samples, or a tuning's starts, rules and columns: Use::grid and Use::shown. Titles and what is said on
+// pages (Use::label), comments, names of files, the order of the parameters, and the unit in which one and
+// the same number is given change neither.
 engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
                                 std::span<const std::string> quantities = {});
 

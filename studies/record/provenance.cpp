@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -30,6 +31,12 @@ results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {
 }
 
 namespace {
+
+constexpr const char *study_text = "study", *study_file_text = "study_file", *overrides_name = "overrides";
+
+std::string file_name(const Study& study) {
+  return std::filesystem::path(study.source.name).filename().string();
+}
 
 std::string search_text(const Study& study, const periodic::OrbitsWanted& wanted) {
   using enum periodic::OrbitsWanted::Show;
@@ -67,24 +74,41 @@ std::string searched_orbits(const Study& study) {
 
 }  // namespace
 
+std::string overrides_text(const std::vector<std::string>& set) {
+  return fmt::format("{}", fmt::join(set, ", "));
+}
+
+std::vector<results::Text> provenance_in_words(std::vector<results::Text> texts, const StudyPlan& plan,
+                                               const std::vector<results::Text>& changed) {
+  const auto put = [&](const std::string& name, const std::string& text) {
+    const auto found = std::ranges::find(texts, name, &results::Text::first);
+    if (found != texts.end()) found->second = text;
+  };
+  put(study_text, plan.study.source.text);
+  put(study_file_text, file_name(plan.study));
+  put(overrides_name, overrides_text(plan.set));
+  for (const auto& [name, text] : changed) put(name, text);
+  put(checksum_text, checksum_of(texts));
+  return texts;
+}
+
 std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,
                                       const std::vector<std::string>& failed, std::uint64_t missing) {
   const BuildFacts facts = build_facts();
-  std::vector<results::Text> texts{
-      {"study", plan.study.source.text},
-      {"study_file", std::filesystem::path(plan.study.source.name).filename().string()},
-      {"overrides", fmt::format("{}", fmt::join(plan.set, ", "))},
-      {"fingerprint_physics", plan.fingerprint.physics},
-      {"fingerprint_grid", plan.fingerprint.grid},
-      {"program", "frahm " + facts.version},
-      {"commit", facts.commit},
-      {"compiler", facts.compiler},
-      {"flags", facts.flags},
-      {"libraries", fmt::format("{}", fmt::join(facts.libraries, ", "))},
-      {"threads", fmt::format("{}", run.threads)},
-      {"ranks", fmt::format("{}", run.ranks)},
-      {"started", run.started},
-      {"finished", utc_now()}};
+  std::vector<results::Text> texts{{study_text, plan.study.source.text},
+                                   {study_file_text, file_name(plan.study)},
+                                   {overrides_name, overrides_text(plan.set)},
+                                   {"fingerprint_physics", plan.fingerprint.physics},
+                                   {"fingerprint_grid", plan.fingerprint.grid},
+                                   {"program", "frahm " + facts.version},
+                                   {"commit", facts.commit},
+                                   {"compiler", facts.compiler},
+                                   {"flags", facts.flags},
+                                   {"libraries", fmt::format("{}", fmt::join(facts.libraries, ", "))},
+                                   {"threads", fmt::format("{}", run.threads)},
+                                   {"ranks", fmt::format("{}", run.ranks)},
+                                   {"started", run.started},
+                                   {"finished", utc_now()}};
   if (const std::string searched = searched_orbits(plan.study); !searched.empty())
     texts.emplace_back("orbits_searched", searched);
   if (plan.grown_from) {

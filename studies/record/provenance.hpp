@@ -24,6 +24,14 @@ std::string utc_now();
 // Title, source and history of a file without a map.
 results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run);
 
+// Its overrides in /provenance.
+std::string overrides_text(const std::vector<std::string>& set);
+
+// The texts of /provenance of a finished result, with this study in place of the one that it was made from,
+// which has the same fingerprint. changed: further texts that are to change.
+std::vector<results::Text> provenance_in_words(std::vector<results::Text> texts, const StudyPlan& plan,
+                                               const std::vector<results::Text>& changed);
+
 // The texts of /provenance. failed: lines "<point as --at takes it>: <reason>". missing: number of tiles
 // missing from a partial file.
 std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,

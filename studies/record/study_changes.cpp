@@ -13,6 +13,7 @@
 #include "studies/reading/toml_writing.hpp"
 #include "studies/record/document_changes.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/provenance.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
@@ -119,29 +120,14 @@ std::vector<std::string> changes_since(const results::MapReader& result, const s
   return changes;
 }
 
-std::vector<std::string> words_changed_since(const results::MapReader& result,
-                                             const std::filesystem::path& file, const Study& now) {
-  const auto in = [](const TomlValue* table, std::string_view key) {
-    const TomlEntry* entry = table ? find_entry(*table, key) : nullptr;
-    return entry ? &entry->value : nullptr;
-  };
-  const auto text = [](const TomlValue* value) { return value ? toml_in_line(*value) : ""; };
-  const TomlValue kept = read_toml({file.string(), provenance_text(result, "study")});
-  const TomlValue document = read_toml(now.source);
-  std::vector<std::string> changed;
-  if (text(in(in(&kept, "study"), "title")) != text(in(in(&document, "study"), "title")))
-    changed.emplace_back("title");
-  if (text(in(&kept, "report")) != text(in(&document, "report"))) changed.emplace_back("[report]");
-  return changed;
-}
-
-bool has_same_document(const std::filesystem::path& result, const Study& now) {
-  if (!std::filesystem::exists(result)) return false;
-  try {
-    return told_changes(read_stored_study(results::MapReader(result), result).study, now).empty();
-  } catch (const StudyError&) {  // written by another version
-    return false;
-  }
+OtherWords other_words(const results::MapReader& result, const std::filesystem::path& file,
+                       const StudyPlan& now) {
+  const bool is_the_same = provenance_text(result, "study") == now.study.source.text &&
+                           provenance_text(result, "overrides") == overrides_text(now.set);
+  if (is_the_same) return {};
+  OtherWords words{.kept = read_stored_study(result, file).study, .changes = {}};
+  words.changes = word_changes(document_of(*words.kept), document_of(now.study));
+  return words;
 }
 
 }  // namespace frahm::studies

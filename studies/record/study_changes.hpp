@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,15 @@ std::vector<std::string> study_changes(const Study& kept, const Study& now);
 std::vector<std::string> changes_since(const results::MapReader& result, const std::filesystem::path& file,
                                        const StudyPlan& now);
 
-// What pages tell of a study and no number depends on, where it is not that of the result: "title",
-// "[report]".
-std::vector<std::string> words_changed_since(const results::MapReader& result,
-                                             const std::filesystem::path& file, const Study& now);
+// What a finished result says in other words than a study with its fingerprint: titles, units, whatever
+// changes no number.
+struct OtherWords {
+  std::optional<Study> kept = std::nullopt;  // the study of the result, where it is not this very text
+  std::vector<std::string> changes = {};     // a line for each
+};
 
-// Whether there is a result whose study says the same as this one in all that a result depends on, so that
-// only the content of a file that it reads, or the program, can have changed.
-bool has_same_document(const std::filesystem::path& result, const Study& now);
+// Throws StudyError where the study of the result can no longer be read, as without a table of samples.
+OtherWords other_words(const results::MapReader& result, const std::filesystem::path& file,
+                       const StudyPlan& now);
 
 }  // namespace frahm::studies

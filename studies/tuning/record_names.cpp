@@ -17,32 +17,6 @@ std::string squared(const std::string& unit) {
   return unit == "1" ? unit : fmt::format("({})2", unit);
 }
 
-// A result with one number wherever there can be one: all names of the record.
-TuningResult example_of(const Study& study) {
-  const TuneChoice& tune = *study.tune();
-  tuning::Optimum optimum;
-  for (const DesignChoice& design : tune.designs) {
-    const std::vector<double> zeros(design.count(), 0.0);
-    optimum.parameters.push_back(
-        {.value = zeros, .at_bound = {}, .lower_multiplier = zeros, .upper_multiplier = zeros});
-  }
-  optimum.peaks.emplace_back();
-  optimum.rounds.emplace_back();
-  if (!tune.peaks) optimum.seen = {.cells = 1, .share = 1.0, .polished = {0.0}};
-  TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}, .before = {}};
-  if (tune.peaks) {
-    result.before.emplace_back();
-    return result;
-  }
-  tuning::Assessment& assessment = result.assessment;
-  if (tune.band) assessment.band = {tune.band->range.from};
-  const std::vector<std::vector<double>> curve(scenario_names(study).size(), {0.0});
-  for (const char* name : {"before", "after", "constant", "rule"})
-    assessment.curves.push_back({name, curve, 0.0});
-  assessment.detuning = {{0.0}, std::vector<std::vector<double>>(tune.designs.size(), {0.0})};
-  return result;
-}
-
 std::string start_text(const TuneChoice& tune, const tuning::Optimum& optimum) {
   if (optimum.seen.cells > 0) return "map";
   switch (tune.start) {
@@ -87,6 +61,46 @@ TuningAbout::TuningAbout(const Study& of_study, const TuningResult& of_result)
   if (!tune.band) return;
   band = study.parameters.list[tune.band->parameter].name;
   if (!tune.band->unit.text.empty()) band_unit = tune.band->unit.text;
+}
+
+namespace {
+
+tuning::Optimum example_of_optimum(const Study& study) {
+  const TuneChoice& tune = *study.tune();
+  const std::size_t designs = tune.designs.size();
+  tuning::Optimum optimum;
+  for (const DesignChoice& design : tune.designs) {
+    const std::vector<double> ones(design.count(), 1.0);
+    optimum.parameters.push_back(
+        {.value = ones, .at_bound = {}, .lower_multiplier = ones, .upper_multiplier = ones});
+  }
+  if (tune.has_schedule()) optimum.constant.assign(designs, 1.0);
+  optimum.trade_off = 1.0;
+  optimum.ends = {.least = 1.0, .objective_at_least = 1.0, .most = 1.0, .objective_at_most = 1.0};
+  optimum.limits.assign(named_limits(study, 1.0).size(), {.value = 1.0, .at = 1.0, .multiplier = 1.0});
+  optimum.peaks.push_back({.at = 1.0, .value = 1.0, .sensitivity = std::vector<double>(designs, 1.0)});
+  optimum.rounds.emplace_back();
+  if (!tune.peaks) optimum.seen = {.cells = 1, .share = 1.0, .polished = {1.0}};
+  return optimum;
+}
+
+}  // namespace
+
+TuningResult example_of(const Study& study) {
+  const TuneChoice& tune = *study.tune();
+  TuningResult result{
+      .starts = {{0, {example_of_optimum(study)}}}, .best = {0}, .assessment = {}, .before = {}};
+  if (tune.peaks) {
+    result.before.emplace_back();
+    return result;
+  }
+  tuning::Assessment& assessment = result.assessment;
+  if (tune.band) assessment.band = {tune.band->range.from};
+  const std::vector<std::vector<double>> curve(scenario_names(study).size(), {1.0});
+  for (const char* name : {"before", "after", "constant", "rule"})
+    assessment.curves.push_back({name, curve, 1.0});
+  assessment.detuning = {{1.0}, std::vector<std::vector<double>>(tune.designs.size(), {1.0})};
+  return result;
 }
 
 std::vector<NamedLimit> named_limits(const Study& study, double trade_off) {

@@ -29,6 +29,9 @@ struct TuningAbout {
   std::string band, band_unit = "1";
 };
 
+// A result with one number wherever there can be one, 1 in SI: all names of the record, and their units.
+TuningResult example_of(const Study& study);
+
 // Everything along the band: the responses, the schedule and the columns beside it; and the objectives of the
 // designs compared, which a variance has even without a band.
 void add_band(const TuningAbout& about, GroupColumns& columns);

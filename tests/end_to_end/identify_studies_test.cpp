@@ -231,7 +231,8 @@ TEST_CASE("rows that a trace marks as doubtful do not enter the fit, and others 
   }
 }
 
-TEST_CASE("an identification is made anew where its data have changed, and never over them") {
+TEST_CASE(
+    "an identification of other data takes the place of another unasked by no means, nor that of data") {
   const runs::Folder folder;
   const std::vector<double> x = small_motion(300);
   const auto write = [&](std::size_t samples) {
@@ -245,7 +246,12 @@ TEST_CASE("an identification is made anew where its data have changed, and never
   write(300);
   CHECK(runs::frahm({"run", study, "-o", folder / "small.h5"}).code == 0);
   write(200);
-  CHECK(runs::frahm({"run", study, "-o", folder / "small.h5"}).code == 0);
+  const std::string before = text_of(folder / "small.h5");
+  const runs::Outcome refused = runs::frahm({"run", study, "-o", folder / "small.h5"});
+  CHECK(refused.code == 5);
+  CHECK_THAT(refused.err, Catch::Contains("the content of a file that it reads"));
+  CHECK(text_of(folder / "small.h5") == before);
+  CHECK(runs::frahm({"run", study, "-o", folder / "small.h5", "--fresh"}).code == 0);
   const runs::Outcome over = runs::frahm({"run", study, "-o", folder / "record.csv", "--fresh"});
   CHECK(over.code != 0);
   CHECK_THAT(text_of(folder / "record.csv"), Catch::StartsWith("time,"));

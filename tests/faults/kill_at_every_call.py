@@ -4,6 +4,8 @@ the same command ends with the bytes of an uninterrupted run.
 usage: kill_at_every_call.py FRAHM SOURCE_DIR
 """
 
+import re
+
 from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, in_parallel, main, resumed_points, sampled, sweep_study,
                          tiles_of_log, tuning_study, whole_appends)
 
@@ -64,8 +66,38 @@ def kill_everywhere(bench, study, kind, threads):
     return killed
 
 
+def title_of(place):
+    return next(line.split(maxsplit=1)[1] for line in place.call("status", OUTPUT).out.splitlines() if line.startswith("title"))
+
+
+def retitle(bench, study, expected, result, fault):
+    """A finished result under a study of another title, whose words are written into it: killed, and run again."""
+    place = bench.place(re.sub(r"(?m)^title .*", 'title = "other"', study))
+    place.write(OUTPUT, result)
+    killed = place.run("--progress", "none", fault=fault)
+    case = f"other words, {fault}"
+    assert killed.code in (0, -9), f"{case}: {killed}"
+    expected.check_file(place, case)
+    expected.check_resume(place, case)
+    assert title_of(place) == "other", case
+    return place.calls(), killed.code == -9
+
+
+def kill_retitling(bench, study):
+    place = bench.place(study)
+    expected, result = Expected(place), place.read(OUTPUT)
+    assert title_of(place) != "other"
+    calls, _ = retitle(bench, study, expected, result, Fault())
+    faults = list(kill_points(sampled(calls, 12)))
+    killed = sum(in_parallel(lambda fault: retitle(bench, study, expected, result, fault)[1], faults))
+    assert killed > 10, (killed, len(faults))
+    return killed
+
+
 def drill(bench):
     sweep, tuning = sweep_study(bench.source), tuning_study(bench.source)
+    for kind, study in (("sweep", sweep), ("tuning", tuning)):
+        print(f"other words of a {kind}: {kill_retitling(bench, study)} kills", flush=True)
     for kind, study, threads in (("sweep", sweep, "1"), ("sweep", sweep, "2"), ("tuning", tuning, "2")):
         print(f"{kind} on {threads} threads: {kill_everywhere(bench, study, kind, threads)} kills", flush=True)
 
