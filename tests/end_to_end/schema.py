@@ -150,7 +150,7 @@ PARTLY_BEYOND = [
     ("key_without_use", r"fitted; a|it is tuned|runs over the band|go along it|does not go with time|order 0", "a name or a column beside another"),
     ("key_without_use", r"has no use here; it is the mass added", "what depends on the columns of the data"),
     ("key_without_use", r"over records|under records|of samples|is of files|\[\[excitation.record\]\]|is a scenario", "records and samples of other sections"),
-    ("key_without_use", r"\[\[design\]\]|schedule|there is no band|a variance has no|belongs to (start|objective)", "forms of a tuning"),
+    ("key_without_use", r"\[\[design\]\]|schedule|there is no band|a variance has no|a variance under white noise|belongs to (start|objective)", "forms of a tuning"),
 ]
 
 
