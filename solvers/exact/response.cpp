@@ -41,6 +41,7 @@ void ResponseSolver::solve_along(std::span<const mechanics::NetworkValues> point
   has_last_ = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (solved[i] == 0) continue;
+    if (stop_asked_ != nullptr && (*stop_asked_)()) return;
     const double step = points[i].omega - omega;
     const bool onwards = points_onwards == 1 ? step != 0.0 : step * direction > 0.0;
     if (points_onwards == 0 || !onwards) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <numbers>
 #include <span>
 #include <string>
@@ -116,6 +117,7 @@ class ResponseSolver {
                          std::span<double> out) {
     solve_rest(points, found, out);
   }
+  virtual void end_rows_when(const std::function<bool()>& stop_asked) { stop_asked_ = &stop_asked; }
 
  protected:
   // Those points of a row whose status is not_computed, one after the other.
@@ -130,6 +132,7 @@ class ResponseSolver {
   mechanics::NetworkValues last_;  // of solve_rest()
   bool has_last_ = false;
   ResponseSummary refused_;
+  const std::function<bool()>* stop_asked_ = nullptr;
 };
 
 // Whether two points have the same masses and elements, and so the same matrices but for what depends on the

@@ -36,15 +36,23 @@ std::vector<periodic::Observed> observed_of(const TimeRecord& record) {
   return observed;
 }
 
-// The topology without excitation.
-Network unexcited(Network network) {
-  network.excitations.clear();
+// A free motion is one without harmonics: constant loads and belts act on.
+bool is_constant(const mechanics::Excitation& excitation) {
+  return excitation.order == 0 && !mechanics::is_recorded(excitation.kind);
+}
+
+Network without_harmonics(Network network) {
+  std::erase_if(network.excitations, [](const auto& each) { return !is_constant(each); });
   network.reference_order = 1;
   return network;
 }
 
-NetworkValues unexcited(NetworkValues values) {
-  values.excitation.clear();
+NetworkValues without_harmonics(const std::vector<mechanics::Excitation>& excitations, NetworkValues values) {
+  std::size_t constants = 0;
+  for (std::size_t i = 0; i < excitations.size(); ++i) {
+    if (is_constant(excitations[i])) values.excitation[constants++] = values.excitation[i];
+  }
+  values.excitation.resize(constants);
   return values;
 }
 
@@ -58,7 +66,8 @@ double longest_period(const LinearSystem& system) {
 
 struct Simulation::Kind {
   Kind(const Network& network, const TimeRecord& of, transient::Watch watch_it)
-      : free_assembly(unexcited(network)),
+      : excitations(network.excitations),
+        free_assembly(without_harmonics(network)),
         record(of),
         observed(observed_of(of)),
         watch(std::move(watch_it)) {}
@@ -73,9 +82,9 @@ struct Simulation::Kind {
                                     "': a hysteretic element needs its reference frequency: none is given");
   }
 
-  // Without excitation, at a frequency of no meaning.
+  // Without harmonics, at a frequency of no meaning.
   NetworkValues free_system(const Model& model, LinearSystem& system) const {
-    NetworkValues values = unexcited(model.values);
+    NetworkValues values = without_harmonics(excitations, model.values);
     if (!(values.hysteretic_omega > 0.0)) values.hysteretic_omega = 1.0;
     values.omega = 1.0;
     free_assembly.set_values(values, system);
@@ -84,6 +93,7 @@ struct Simulation::Kind {
     return values;
   }
 
+  std::vector<mechanics::Excitation> excitations;  // of the study
   mechanics::Assembly free_assembly;
   const TimeRecord& record;
   std::vector<periodic::Observed> observed;
@@ -124,7 +134,7 @@ struct FreeMotion final : Simulation::Kind {
     const NetworkValues values = free_system(model, system);
     std::vector<NetworkValues> directions;
     for (const Model& each : by) {
-      directions.push_back(unexcited(each.values));
+      directions.push_back(without_harmonics(excitations, each.values));
       directions.back().omega = 0.0;
     }
     MotionSensitivity motion(observed, {times.begin(), times.end()}, watch);

@@ -21,8 +21,8 @@ class Simulation {
   // out: as many rows as samples, the record's first so many; a column for each channel; a derivative along
   // each of `by`.  Returns "" or a sentence why there are no values, or, where `by` is not empty, no
   // derivatives.
-  // Forced motions have the phase omega t of the record's own time. In free ones nothing is excited and
-  // prescribed nodes rest; hysteretic elements then need NetworkValues::hysteretic_omega.
+  // Forced motions have the phase omega t of the record's own time. In free ones no harmonic is
+  // excited, but constant loads and belts act; hysteretic elements then need NetworkValues::hysteretic_omega.
   // Throws mechanics::MechanicsError for values without a meaning.
   std::string run(const Model& model, std::span<const Model> by, std::size_t samples,
                   periodic::ObservedMotion& out);

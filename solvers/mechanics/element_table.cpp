@@ -75,7 +75,8 @@ constexpr ElementKind kKinds[] = {
      .dissipates = true},
     {.type = ElementType::gap,
      .name = "gap",
-     .force = "k (u - D) + c v beyond D, 0 before it",
+     .force =
+         "k (abs(u) - D) + c abs(u)' towards the middle beyond the clearance D on either side, 0 within it",
      .value = {"stiffness", "k", Dimension::stiffness, Range::not_negative},
      .second = {"damping", "c", Dimension::damping, Range::not_negative},
      .adds = [](auto k, auto, auto) { return Added<decltype(k)>{}; },

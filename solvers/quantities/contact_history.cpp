@@ -56,11 +56,15 @@ ContactHistory contact_history(std::span<const ContactStretch> stretches, bool h
   return result;
 }
 
+Regime regime_of_stops(int stops) {
+  if (stops == 0) return Regime::non_stop;
+  return stops <= 2 ? Regime::one_stop : Regime::multi_stop;
+}
+
 Regime regime_of(double force, const ContactHistory& history) {
   if (force == 0.0) return Regime::no_friction;
   if (history.stuck_fraction == 1.0) return Regime::stuck;
-  if (history.stops == 0) return Regime::non_stop;
-  return history.stops <= 2 ? Regime::one_stop : Regime::multi_stop;
+  return regime_of_stops(history.stops);
 }
 
 }  // namespace frahm::periodic

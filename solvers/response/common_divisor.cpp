@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/orbits/orbit.hpp"
+#include "solvers/quantities/contact_history.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -48,13 +50,24 @@ Network divided(Network network, int g) {
   return network;
 }
 
+// The quantities and, after them, the stops from which the regimes among them follow.
+std::vector<Quantity> with_stops(std::vector<Quantity> quantities) {
+  const std::size_t asked = quantities.size();
+  for (std::size_t i = 0; i < asked; ++i) {
+    if (quantities[i].measure == Measure::regime) quantities.push_back({Measure::stops, quantities[i].index});
+  }
+  return quantities;
+}
+
 class DividedOrders final : public ResponseSolver {
  public:
+  // solver: gives the quantities with_stops().
   DividedOrders(int divisor, int reference_order, std::vector<Quantity> quantities,
                 std::unique_ptr<ResponseSolver> solver)
       : divisor_(divisor),
         reference_order_(reference_order),
         quantities_(std::move(quantities)),
+        solved_(with_stops(quantities_).size()),
         solver_(std::move(solver)) {}
 
   void set_values(const NetworkValues& values) override { solver_->set_values(quickened(values)); }
@@ -77,29 +90,37 @@ class DividedOrders final : public ResponseSolver {
   int multiple() const override { return whole_periods(multiple_); }
 
   void quantities(std::span<double> out) override {
-    solver_->quantities(out);
-    for (std::size_t i = 0; i < quantities_.size(); ++i)
-      out[i] = of_whole_period(quantities_[i].measure, out[i], multiple_);
+    of_part_.resize(solved_);
+    solver_->quantities(of_part_);
+    convert(of_part_, multiple_, out);
   }
 
   void solve_row(std::span<const NetworkValues> points, std::span<ResponseSummary> found,
                  std::span<double> out) override {
     row_.assign(points.begin(), points.end());
     for (NetworkValues& values : row_) quicken(values);
-    solver_->solve_row(row_, found, out);
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const int multiple = found[i / quantities_.size()].multiple;
-      out[i] = of_whole_period(quantities_[i % quantities_.size()].measure, out[i], multiple);
+    of_part_.resize(solved_ * points.size());
+    solver_->solve_row(row_, found, of_part_);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found[i].status == Status::not_computed) continue;
+      convert(std::span(of_part_).subspan(solved_ * i, solved_), found[i].multiple,
+              out.subspan(quantities_.size() * i, quantities_.size()));
+      found[i].multiple = whole_periods(found[i].multiple);
     }
-    for (ResponseSummary& summary : found) summary.multiple = whole_periods(summary.multiple);
   }
 
+  void end_rows_when(const std::function<bool()>& stop_asked) override { solver_->end_rows_when(stop_asked); }
+
   const char* gradient(std::span<const NetworkValues> directions, std::span<double> out) override {
-    const char* reason = solver_->gradient(quickened(directions), out);
+    of_part_.resize(solved_ * directions.size());
+    const char* reason = solver_->gradient(quickened(directions), of_part_);
     is_differentiable_ = *reason == '\0';
     if (!is_differentiable_) return reason;
-    for (std::size_t i = 0; i < directions.size() * quantities_.size(); ++i)
-      out[i] = derivative_of_whole_period(quantities_[i % quantities_.size()].measure, out[i], divisor_);
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      for (std::size_t i = 0; i < quantities_.size(); ++i)
+        out[d * quantities_.size() + i] =
+            derivative_of_whole_period(quantities_[i].measure, of_part_[d * solved_ + i], divisor_);
+    }
     return reason;
   }
 
@@ -160,6 +181,23 @@ class DividedOrders final : public ResponseSolver {
   // repeats g/gcd(m, g) times.
   int whole_periods(int multiple) const { return multiple / std::gcd(multiple, divisor_); }
 
+  // A response over a part of the period, converted to the whole of it.  multiple: as below.
+  void convert(std::span<const double> of_part, int multiple, std::span<double> out) const {
+    std::size_t next_stops = quantities_.size();
+    for (std::size_t i = 0; i < quantities_.size(); ++i) {
+      const Measure measure = quantities_[i].measure;
+      out[i] = measure == Measure::regime
+                   ? regime_of_whole_period(of_part[i], of_part[next_stops++], multiple)
+                   : of_whole_period(measure, of_part[i], multiple);
+    }
+  }
+
+  double regime_of_whole_period(double regime, double stops, int multiple) const {
+    if (regime != static_cast<double>(Regime::one_stop)) return regime;
+    const auto whole = static_cast<int>(of_whole_period(Measure::stops, stops, multiple));
+    return static_cast<double>(regime_of_stops(whole));
+  }
+
   // multiple: of the g-th part of the period, that the response takes.
   double of_whole_period(Measure measure, double value, int multiple) const {
     const int times = divisor_ / std::gcd(multiple, divisor_);
@@ -183,7 +221,9 @@ class DividedOrders final : public ResponseSolver {
   int divisor_, reference_order_;
   bool has_reference_ = reference_order_ % divisor_ == 0;
   std::vector<Quantity> quantities_;
+  std::size_t solved_;                      // quantities of the solver
   std::unique_ptr<ResponseSolver> solver_;  // of the divided orders
+  std::vector<double> of_part_;             // what it gave last
   NetworkValues values_;                    // as it was given them
   std::vector<NetworkValues> row_;          // the same
   std::vector<NetworkValues> directions_;
@@ -204,7 +244,7 @@ std::unique_ptr<ResponseSolver> divide_orders(
     const Network& network, std::vector<Quantity> quantities,
     const std::function<std::unique_ptr<ResponseSolver>(const Network&, std::vector<Quantity>)>& make) {
   const int divisor = common_divisor(network);
-  auto solver = make(divided(network, divisor), quantities);
+  auto solver = make(divided(network, divisor), with_stops(quantities));
   return std::make_unique<DividedOrders>(divisor, network.reference_order, std::move(quantities),
                                          std::move(solver));
 }

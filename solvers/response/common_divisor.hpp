@@ -18,9 +18,9 @@ int common_divisor(const mechanics::Network& network);
 
 // A solver for a network whose orders have a common divisor, over one that `make` gives for the divided
 // orders. For a period of the network's own fundamental: energies and counts are g times those of the shorter
-// period, Floquet multipliers their power g, and omega t is a g-th of g omega t. The regime, which follows
-// from the number of stops, is that of the shorter period, and so is ResponseSummary::half_period. Where g
-// does not divide the reference order the response has no component there: `harmonic` is 0, and what takes
+// period, Floquet multipliers their power g, and omega t is a g-th of g omega t; the regime follows
+// from the stops of the whole period. ResponseSummary::half_period is that of the shorter one. Where g does
+// not divide the reference order the response has no component there: `harmonic` is 0, and what takes
 // its phase or its ratio to another such component is NaN.
 std::unique_ptr<ResponseSolver> divide_orders(
     const mechanics::Network& network, std::vector<Quantity> quantities,

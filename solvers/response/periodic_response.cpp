@@ -27,9 +27,8 @@ std::unique_ptr<ResponseSolver> make_divided_solver(const mechanics::Network& ne
 
 }  // namespace
 
-PeriodicResponse::PeriodicResponse(const mechanics::Network& network,
-                                   const std::vector<Quantity>& quantities, Path path,
-                                   const OrbitsWanted& wanted)
+PeriodicResponse::PeriodicResponse(const mechanics::Network& network, const std::vector<Quantity>& quantities,
+                                   Path path, const OrbitsWanted& wanted)
     : solver_((common_divisor(network) > 1 ? make_divided_solver : make_solver)(network, quantities, path,
                                                                                 wanted)) {}
 PeriodicResponse::~PeriodicResponse() = default;
@@ -40,6 +39,9 @@ void PeriodicResponse::solve_row(std::span<const mechanics::NetworkValues> point
                                  std::span<ResponseSummary> found, std::span<double> out) {
   for (ResponseSummary& summary : found) summary = {};
   solver_->solve_row(points, found, out);
+}
+void PeriodicResponse::end_rows_when(const std::function<bool()>& stop_asked) {
+  solver_->end_rows_when(stop_asked);
 }
 void PeriodicResponse::set_values(const mechanics::NetworkValues& values) {
   solver_->set_values(values);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -39,6 +40,9 @@ class PeriodicResponse {
   // gives them.  Never throws.
   void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
                  std::span<double> out);
+  // From now on a row whose points are solved one after the other ends once this is true, its other points
+  // not computed. stop_asked: called before each point; must outlive the response.
+  void end_rows_when(const std::function<bool()>& stop_asked);
 
   // New element values: matrices, limits and forcing. Throws mechanics::MechanicsError, naming element, value
   // and rule, and leaves the response unset.

@@ -90,7 +90,8 @@ std::vector<results::Column> identification_columns(const Study& study, const Id
   if (!fit.records.empty()) {
     std::vector<double> quality;
     for (const FittedRecord& record : fit.records) quality.push_back(record.nrmse);
-    columns.add("nrmse", "percent", "fit quality of each record, 100 (1 - |y - yhat| / |y - mean y|)",
+    columns.add("nrmse", "percent",
+                "fit quality of each record, 100 (1 - |y - yhat| / |y - mean y|); 100 is a perfect fit",
                 "record", std::move(quality));
   }
   for (const identification::RowColumn& row : fit.rows)

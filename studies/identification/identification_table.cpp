@@ -77,7 +77,7 @@ void print_correlations(const Identification& found, std::ostream& out) {
 
 void print_quality(const Identification& found, std::ostream& out) {
   if (found.records.empty()) return;
-  fmt::print(out, "\n{:<36}{:>16}\n", "fit quality (NRMSE)", "percent");
+  fmt::print(out, "\n{:<36}{:>16}\n", "fit quality (NRMSE; 100 is perfect)", "percent");
   for (const FittedRecord& record : found.records)
     fmt::print(out, "{:<36}{:>16}\n", record.name,
                std::isnan(record.nrmse) ? "-" : fmt::format("{:.8g}", record.nrmse));

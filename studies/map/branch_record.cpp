@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/element_table.hpp"
 #include "studies/map/branch_rows.hpp"
 #include "studies/map/map_record.hpp"
 #include "studies/record/assembly_stage.hpp"
@@ -115,7 +116,9 @@ std::vector<std::vector<double>> BranchRecord::samples(const periodic::Branch& b
     (column++)->push_back(special ? none + flag_value(special->kind) : none);
     (column++)->push_back(special ? special->residual : kNone);
     const auto element =
-        special && special->element ? std::ranges::find(elements_, *special->element) : elements_.end();
+        special && special->element
+            ? std::ranges::find(elements_, mechanics::told_by(study_.network, *special->element))
+            : elements_.end();
     column->push_back(element == elements_.end() ? none : none + flag_value(element - elements_.begin()));
   };
   auto special = branch.special.begin();

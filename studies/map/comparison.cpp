@@ -106,11 +106,18 @@ std::vector<QuantityDescription> compared_variables(const Study& study) {
   return result;
 }
 
-void compare(std::span<const double> own, std::span<const double> other, std::span<double> variables) {
+std::optional<periodic::Quantity> size_of_compared(const periodic::Quantity& quantity) {
+  if (quantity.measure != periodic::Measure::mean) return std::nullopt;
+  return periodic::Quantity{periodic::Measure::rms, quantity.index};
+}
+
+void compare(std::span<const double> own, std::span<const double> sizes, std::span<const double> other,
+             std::span<double> variables) {
+  constexpr double kRounding = 1e-11;  // of a mean, over its root mean square
   for (std::size_t i = 0; i < own.size(); ++i) {
     const double size = std::abs(own[i]);
     variables[2 * i] = other[i];
-    variables[2 * i + 1] = size > 0.0 ? std::abs(own[i] - other[i]) / size : kNone;
+    variables[2 * i + 1] = size > kRounding * sizes[i] ? std::abs(own[i] - other[i]) / size : kNone;
   }
   variables.back() = other.back();
 }

@@ -12,12 +12,16 @@
 namespace frahm::studies {
 namespace {
 
-// The quantities of the study's own response: those recorded, then others that are compared.
+// The quantities of the study's own response: those recorded, then others that are compared, and by which
+// they are told from nothing.
 std::vector<periodic::Quantity> asked_for(const Study& study, std::vector<periodic::Quantity> quantities) {
   if (!study.sweep()->comparison) return quantities;
+  const auto ask = [&](const periodic::Quantity& quantity) {
+    if (std::ranges::find(quantities, quantity) == quantities.end()) quantities.push_back(quantity);
+  };
   for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
-    if (std::find(quantities.begin(), quantities.end(), compared) == quantities.end())
-      quantities.push_back(compared);
+    ask(compared);
+    if (const auto size = size_of_compared(compared)) ask(*size);
   }
   return quantities;
 }
@@ -53,11 +57,16 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
   }
   if (!study.sweep()->comparison) return;
   const std::vector<periodic::Quantity> asked = asked_for(study, std::move(quantities));
+  const auto place_of = [&](const periodic::Quantity& quantity) {
+    return static_cast<std::size_t>(std::ranges::find(asked, quantity) - asked.begin());
+  };
   for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
-    compared_.push_back(
-        static_cast<std::size_t>(std::find(asked.begin(), asked.end(), compared) - asked.begin()));
+    compared_.push_back(place_of(compared));
+    const auto size = size_of_compared(compared);
+    sizes_.push_back(size ? std::optional(place_of(*size)) : std::nullopt);
   }
   own_compared_.resize(compared_.size());
+  own_sizes_.resize(compared_.size());
   point_.resize(quantities_ + compared_variables(study).size());
   other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study),
                  compared_orbits(study));
@@ -129,8 +138,11 @@ void MapKernel::record_point(std::size_t i, std::uint64_t offset) {
   std::copy_n(own.begin(), quantities_, point_.begin());
   std::string reason = own_.reason(i);
   if (other_) {
-    for (std::size_t c = 0; c < compared_.size(); ++c) own_compared_[c] = own[compared_[c]];
-    compare(own_compared_, other_->quantities(i), std::span(point_).subspan(quantities_));
+    for (std::size_t c = 0; c < compared_.size(); ++c) {
+      own_compared_[c] = own[compared_[c]];
+      own_sizes_[c] = sizes_[c] ? own[*sizes_[c]] : 0.0;
+    }
+    compare(own_compared_, own_sizes_, other_->quantities(i), std::span(point_).subspan(quantities_));
     if (reason.empty() && !other_->reason(i).empty()) reason = fmt::format("compared: {}", other_->reason(i));
   }
   tile_.put(offset, point_, std::move(reason));

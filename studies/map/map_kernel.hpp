@@ -41,8 +41,9 @@ class MapKernel {
 
   const Study& study_;
   const Grid& grid_;
-  std::size_t quantities_;             // of the study's own record
-  std::vector<std::size_t> compared_;  // index of each compared quantity among those solved for
+  std::size_t quantities_;                         // of the study's own record
+  std::vector<std::size_t> compared_;              // index of each compared quantity among those solved for
+  std::vector<std::optional<std::size_t>> sizes_;  // likewise, of size_of_compared()
   OpenTile tile_;
   RowSolver own_;
   std::optional<RowSolver> other_;
@@ -55,6 +56,7 @@ class MapKernel {
   std::vector<double> parameters_;      // SI
   std::vector<double> point_;           // its variables
   std::vector<double> own_compared_;    // of the study's response, those that are compared
+  std::vector<double> own_sizes_;       // by which they are told from nothing
 };
 
 }  // namespace frahm::studies

@@ -4,7 +4,6 @@
 
 #include "studies/map/output_quantities.hpp"
 #include "studies/reading/name_pattern.hpp"
-#include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -23,7 +22,7 @@ std::vector<MotionQuantity> quantities_called(const Study& study, const OutputCh
   if (!found.empty()) return found;
   throw study.source.error_at(rules::unknown_name, name.position,
                               "[output]: quantities: there is no \"{}\" of a motion{}", name.text,
-                              suggestion(name.text, known));
+                              hint_of_unmatched(name.text, known));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/reading/name_pattern.hpp"
-#include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -22,7 +21,7 @@ std::string name_of(const Study& study, const periodic::Quantity& quantity) {
   for (const auto& each : periodic::all_quantities(study.network)) known.push_back(name_of(study, each));
   throw study.source.error_at(rules::unknown_name, name.position,
                               "[output]: quantities: there is no \"{}\"{}", name.text,
-                              suggestion(name.text, known));
+                              hint_of_unmatched(name.text, known));
 }
 
 // The quantities of a name, or of a pattern of names.
@@ -115,7 +114,7 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
     throw study.source.error_at(rules::unknown_name, name.position,
                                 "[report]: {}: \"{}\" is not recorded by this study{}; [output] "
                                 "quantities chooses what is",
-                                key, name.text, suggestion(name.text, names));
+                                key, name.text, hint_of_unmatched(name.text, names));
   };
   for (const OutputChoice::Name& name : study.map()->report_quantities) check("quantities", name);
   if (study.map()->headline) check("headline", *study.map()->headline);

@@ -118,9 +118,16 @@ std::vector<CostRun> costs_of_all(std::vector<TileCost> sample, std::uint64_t ti
   return runs;
 }
 
+int assembling_threads(int processors, int ranks, int threads) {
+  constexpr int most = 12;  // beyond 4 to 12 the writer of HDF5 is the limit (engine/README.md)
+  const int ranks_on_machine = std::min(ranks, std::max(1, processors / threads));
+  return std::min(most, ranks_on_machine * threads);
+}
+
 RankPrediction simulate_ranks(const RankCosts& costs, int ranks, int threads) {
   const Computation done = compute(costs, ranks, threads);
-  const double cores = static_cast<double>(ranks) * threads, assembly = costs.assembly / threads;
+  const double cores = static_cast<double>(ranks) * threads;
+  const double assembly = costs.assembly / assembling_threads(costs.processors, ranks, threads);
   RankPrediction prediction{.wall = costs.start + done.span + assembly};
   const double all = prediction.wall * cores;
   prediction.efficiency = seconds_of(costs.tiles) / all;

@@ -10,7 +10,7 @@
 // Rank 0 serves one request after the other, each with a block of tiles (engine/handout.hpp). A rank asks as
 // soon as its queue is empty, that is when its last thread has taken the last tile of its block, and is
 // answered while the threads compute the tiles they have in hand. When all tiles are done rank 0 assembles
-// the file.
+// the file, with the processors of all ranks on its machine (engine/README.md).
 namespace frahm::studies {
 
 // Consecutive tiles of equal cost in one thread.
@@ -34,6 +34,7 @@ struct RankCosts {
   std::vector<CostRun> tiles;  // in the order of their numbers
   double start = 0.0;          // until a rank has read the study and asks
   double assembly = 0.0;       // of the file, by one thread
+  int processors = 1;          // of a machine, which holds as many ranks as have their threads there
   double service = 7e-6;       // of a request, by rank 0: two-sided Open MPI on one machine, measured
   double answer = 1e-3;        // until a rank looks for its answer: its pause between two looks
 };
@@ -45,9 +46,13 @@ struct RankPrediction {
   double start = 0.0;
   double waiting = 0.0;        // of threads for tiles that rank 0 has not handed out yet
   double imbalance = 0.0;      // of threads that find none left while others compute their last
-  double assembly = 0.0;       // idle cores of the other ranks, and the work of rank 0
+  double assembly = 0.0;       // idle cores of other machines, and the work on that of rank 0
   std::uint64_t requests = 0;  // that were answered with tiles
 };
+
+// Threads that assemble the file: of the ranks on the machine of rank 0, no more than the one that writes can
+// follow.
+int assembling_threads(int processors, int ranks, int threads);
 
 // ranks, threads of each: > 0.  Time O(tiles log threads + requests log ranks), memory O(ranks x threads).
 RankPrediction simulate_ranks(const RankCosts& costs, int ranks, int threads);

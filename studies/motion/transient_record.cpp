@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <ostream>
 #include <string_view>
 
@@ -184,17 +183,22 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
   return columns.take();
 }
 
+// The unit of the displacements of all masses and signals; "" where some are angles and others are not.
+std::string_view common_unit(const Study& study) {
+  const std::string_view first = mechanics::coordinate_unit(study.network, 0, "m");
+  for (std::size_t i = 1; i < mechanics::coordinate_count(study.network); ++i)
+    if (mechanics::coordinate_unit(study.network, i, "m") != first) return "";
+  return first;
+}
+
 void print_transient(const Study& study, const ForcedMotion& motion, std::ostream& out) {
   const bool si = !study.dimensionless;
-  const bool some_rotate = std::ranges::any_of(study.network.rotation, std::identity{});
+  const std::string_view common = common_unit(study);
   fmt::print(out, "{:<16}{:>18}{:>18}\n", "",
-             !si           ? "peak"
-             : some_rotate ? "peak [SI]"
-                           : "peak [m]",
-             si ? "at [s]" : "at");
+             si ? fmt::format("peak [{}]", common.empty() ? "SI" : common) : "peak", si ? "at [s]" : "at");
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
     const std::string_view unit =
-        si && some_rotate ? mechanics::coordinate_unit(study.network, i, "m") : std::string_view();
+        si && common.empty() ? mechanics::coordinate_unit(study.network, i, "m") : std::string_view();
     fmt::print(out, "{:<16}{:>18.10g}{:>18.10g}{:>6}\n", mechanics::coordinate_name(study.network, i),
                std::abs(motion.peaks[i].displacement), motion.peaks[i].time, unit);
   }
@@ -207,10 +211,11 @@ void print_transient(const Study& study, const ForcedMotion& motion, std::ostrea
   print_touches(study, motion, out);
   print_energies(study, motion.energy, out);
   if (!study.transient()->sweep_to) return;
+  const std::string unit = !si ? "" : common.empty() ? " m or rad" : fmt::format(" {}", common);
   fmt::print(out,
              "the run-up's frequency on {} stairs: no displacement changes by more than {:.2g}{} with half "
              "as many\n",
-             motion.stairs, motion.discretisation_error, si ? " m" : "");
+             motion.stairs, motion.discretisation_error, unit);
 }
 
 }  // namespace frahm::studies

@@ -13,6 +13,7 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/identification/identification_record.hpp"
+#include "studies/identification/identification_result.hpp"
 #include "studies/map/first_modes.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_record.hpp"
@@ -158,10 +159,19 @@ void print_transient_choice(const Study& study, std::ostream& out) {
   fmt::print(out, "\n");
 }
 
+ModesAtPoint modes_of_motion(const Study& study, const mechanics::NetworkValues& values) {
+  try {
+    return modes_at_point(study, values);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
+  }
+}
+
 // Checks a decay or transient.
 int check_motion(const Study& study, Listing listing, std::ostream& out) {
   const mechanics::NetworkValues values = motion_values(study);
   const transient::InitialState initial = initial_state(study);
+  const ModesAtPoint modes = modes_of_motion(study, values);
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);
   if (study.kind() == StudyKind::decay) {
@@ -180,26 +190,43 @@ int check_motion(const Study& study, Listing listing, std::ostream& out) {
   fmt::print(out, "samples    {}\n", study.motion()->samples);
   if (study.transient()) fmt::print(out, "time       {}\n", about_seconds(predicted_motion_seconds(study)));
   fmt::print(out, "\n");
-  try {
-    const ModesAtPoint modes = modes_at_point(study, values);
-    if (study.transient()) print_records(study, modes.sliding, out);
-    print_modes(study, modes, listing, out);
-  } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
-  }
+  if (study.transient()) print_records(study, modes.sliding, out);
+  print_modes(study, modes, listing, out);
   return exit_code::done;
+}
+
+// Refuses what a run refuses: a method in closed form is carried out, a fit of motions for this time at most.
+constexpr double identification_seconds = 1.0;
+void try_identification(const Study& study) {
+  struct LongEnough {};
+  const auto start = Clock::now();
+  try {
+    const IdentificationResult result = identify(study, [start] {
+      if (std::chrono::duration<double>(Clock::now() - start).count() > identification_seconds)
+        throw LongEnough{};
+    });
+    identification_columns(study, result);
+  } catch (const LongEnough&) {
+  }
+}
+
+std::optional<ModesAtPoint> modes_of_identification(const Study& study) {
+  if (study.network.masses.empty()) return std::nullopt;
+  return modes_of_motion(study, stated_values(study));
 }
 
 // Checks an identification.
 int check_identification(const CheckOptions& options, Study read, std::ostream& out) {
   const StudyPlan plan = plan_without_map(std::move(read), options.set);
   const Study& study = plan.study;
+  try_identification(study);
+  const std::optional<ModesAtPoint> modes = modes_of_identification(study);
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);
   print_identification_choice(study, out);
-  if (study.network.masses.empty()) return exit_code::done;
+  if (!modes) return exit_code::done;
   fmt::print(out, "\n");
-  print_stated_modes(study, options.listing(), out);
+  print_stated_modes(study, *modes, options.listing(), out);
   return exit_code::done;
 }
 

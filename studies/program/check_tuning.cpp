@@ -54,6 +54,25 @@ void print_prediction(const TuningSample& sample, const MemoryUse& memory, std::
   fmt::print(out, "{:<22}about {}\n", "memory", readable_size(memory.of_run(threads)));
 }
 
+void print_heading(const Study& study, const TuningSample& sample, std::ostream& out) {
+  if (!sample.why_no_design.empty()) {
+    fmt::print(out, "{} can be read, but its first start finds no design: {}\n\n", study.source.name,
+               sample.why_no_design);
+    return;
+  }
+  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
+             study.title);
+}
+
+// Other designs may have modes where the one that the study states has none.
+void print_modes_before(const Study& study, Listing listing, std::ostream& out) {
+  try {
+    print_stated_modes(study, modes_at_point(study, stated_values(study)), listing, out);
+  } catch (const mechanics::MechanicsError& error) {
+    fmt::print(out, "As the study states it there are no modes: {}\n", error.what());
+  }
+}
+
 }  // namespace
 
 int check_tuning(const CheckOptions& options, Study read, std::ostream& out) {
@@ -62,8 +81,7 @@ int check_tuning(const CheckOptions& options, Study read, std::ostream& out) {
   const Study& study = plan.study;
   const MemoryUse memory;
   const TuningSample sample = sample_tuning(plan, sample_seconds);
-  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
-             study.title);
+  print_heading(study, sample, out);
   print_task(study, out);
   std::size_t variables = 0;
   for (const DesignChoice& design : study.tune()->designs) {
@@ -74,7 +92,7 @@ int check_tuning(const CheckOptions& options, Study read, std::ostream& out) {
              study.tune()->limits.size() + (study.tune()->trade_off ? 1 : 0), "starts", plan.tiles);
   print_prediction(sample, memory, plan.tiles, options.threads, out);
   fmt::print(out, "\n");
-  print_stated_modes(study, options.listing(), out);
+  print_modes_before(study, options.listing(), out);
   if (plan.tiles > 1) {
     const auto starts = static_cast<double>(plan.tiles);
     print_array_job({.study = options.study,
@@ -85,7 +103,7 @@ int check_tuning(const CheckOptions& options, Study read, std::ostream& out) {
                      .most_tasks = options.max_array > 0 ? options.max_array : most_array_tasks()},
                     out);
   }
-  return exit_code::done;
+  return sample.why_no_design.empty() ? exit_code::done : exit_code::not_converged;
 }
 
 }  // namespace frahm::studies

@@ -82,8 +82,9 @@ const Meaning flag_words[] = {
     {"stopped", "outcome of a tuning: by a signal or the time budget; the same command goes on"},
     {"no_friction", "regime of a friction element: it has no friction force here, F = 0"},
     {"non_stop", "regime of a friction element: it slides all the time, turning at single instants"},
-    {"one_stop", "regime of a friction element: it sticks once in each half of the period"},
-    {"multi_stop", "regime of a friction element: it sticks more often than once in each half of the period"},
+    {"one_stop", "regime of a friction element: it stops once or twice in a period of the excitation"},
+    {"multi_stop",
+     "regime of a friction element: it stops three times or more in a period of the excitation"},
     {"stuck", "regime of a friction element: it never slides"}};
 
 const char* name_of(periodic::Owner owner) {

@@ -79,16 +79,16 @@ void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing,
   print_table(study, modes.stuck, listing, out);
 }
 
-void print_stated_modes(const Study& study, Listing listing, std::ostream& out) {
-  fmt::print(out, "As the study states it:\n");
+mechanics::NetworkValues stated_values(const Study& study) {
   std::vector<double> parameters = study.parameters.nominal();
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
-  try {
-    print_modes(study, modes_at_point(study, values), listing, out);
-  } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
-  }
+  return values;
+}
+
+void print_stated_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out) {
+  fmt::print(out, "As the study states it:\n");
+  print_modes(study, modes, listing, out);
 }
 
 }  // namespace frahm::studies

@@ -25,7 +25,8 @@ ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& 
 // has the first twelve modes, with their shapes at eight masses.
 void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out);
 
-// The modes with the parameters as the study states them. Throws StudyError for invalid matrices.
-void print_stated_modes(const Study& study, Listing listing, std::ostream& out);
+// The values with the parameters as the study states them, and their modes.
+mechanics::NetworkValues stated_values(const Study& study);
+void print_stated_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -106,10 +106,15 @@ void add_motion(periodic::PeriodicResponse& response, std::span<const mechanics:
 void add_comparison(const Study& study, std::span<const double> parameters,
                     const std::vector<periodic::Quantity>& quantities, PointReport& report) {
   if (!study.sweep() || !study.sweep()->comparison) return;
-  std::vector<double> own;
+  const auto value_of = [&](const periodic::Quantity& quantity) {
+    const auto place = std::find(quantities.begin(), quantities.end(), quantity) - quantities.begin();
+    return report.quantities[static_cast<std::size_t>(place)].value;
+  };
+  std::vector<double> own, sizes;
   for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
-    const auto place = std::find(quantities.begin(), quantities.end(), compared) - quantities.begin();
-    own.push_back(report.quantities[static_cast<std::size_t>(place)].value);
+    own.push_back(value_of(compared));
+    const auto size = size_of_compared(compared);
+    sizes.push_back(size ? value_of(*size) : 0.0);
   }
   RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study),
                   compared_orbits(study));
@@ -120,7 +125,7 @@ void add_comparison(const Study& study, std::span<const double> parameters,
   const std::vector<periodic::QuantityDescription> variables = compared_variables(study);
   std::vector<double> values(variables.size());
   const std::string& reason = other.reason(way.size() - 1);
-  compare(own, other.quantities(way.size() - 1), values);
+  compare(own, sizes, other.quantities(way.size() - 1), values);
   for (std::size_t i = 0; i < values.size(); ++i) report.quantities.push_back({variables[i], values[i]});
   if (report.reason.empty() && !reason.empty()) report.reason = fmt::format("compared: {}", reason);
 }

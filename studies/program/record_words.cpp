@@ -110,6 +110,8 @@ constexpr RecordWord all_words[] = {
      "(objective - bound) / objective: what the true worst peak may exceed the bound from the active "
      "frequencies by; "
      "the worst peak over the band is certified by it, the optimum is a local one"},
+    {"certificate_width", of_tuning,
+     "along the band; a peak that is narrower may be missed by the certificate"},
     {"kkt_residual", "tuning, front",
      "what is left of the conditions of a local optimum (Karush, Kuhn, Tucker), relative; 0: they are met"},
     {"violation", "tuning, front",
@@ -273,9 +275,11 @@ std::vector<std::string> record_words_called(std::string_view name) {
   for (const RecordWord& each : all_words) {
     if (is_called(each, name)) longest = std::max(longest, std::string_view(each.name).size());
   }
+  // The name itself too, where a longer pattern ends in it: `nrmse` beside `*_nrmse`.
   std::vector<std::string> found;
   for (const RecordWord& each : all_words) {
-    if (is_called(each, name) && std::string_view(each.name).size() == longest) found.push_back(told(each));
+    const bool is_longest = std::string_view(each.name).size() == longest;
+    if (is_called(each, name) && (is_longest || name == each.name)) found.push_back(told(each));
   }
   return found;
 }

@@ -10,7 +10,6 @@
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
 #include "studies/reading/name_pattern.hpp"
-#include "studies/reading/spelling.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
@@ -65,7 +64,7 @@ void check_quantities(const std::vector<std::string>& asked, const results::MapL
     std::vector<std::string> names;
     for (const results::Variable& variable : known) names.push_back(variable.name);
     throw StudyError(rules::wrong_option, "--quantities: the result has no quantity \"{}\"{}", name,
-                     names.empty() ? ", as it has no map" : suggestion(name, names));
+                     names.empty() ? ", as it has no map" : hint_of_unmatched(name, names));
   }
 }
 

@@ -74,6 +74,12 @@ Json name_schema() {
   return {{"type", "string"}, {"pattern", name_pattern}};
 }
 
+// In a table that may be repeated its index may stand for a number: order = "{n}".
+Json or_index(const StudyKey& key, const Json& number) {
+  if (!written_section(key.section).starts_with("[[")) return number;
+  return {{"anyOf", {number, {{"type", "string"}, {"pattern", R"(^\{[^{}]+\}$)"}}}}};
+}
+
 Json form_of(const StudyKey& key, KeyForm form);
 
 Json settings_schema(const StudyKey& key) {
@@ -99,11 +105,11 @@ Json form_of(const StudyKey& key, KeyForm form) {
     case KeyForm::parameter:
       return {{"anyOf", {value_reference(false, {}), section_schema("{ table, of }")}}};
     case KeyForm::number:
-      return number_schema("number", key.limits);
+      return or_index(key, number_schema("number", key.limits));
     case KeyForm::numbers:
       return list_of(number_schema("number", key.limits), key.length);
     case KeyForm::integer:
-      return number_schema("integer", key.limits);
+      return or_index(key, number_schema("integer", key.limits));
     case KeyForm::boolean:
       return {{"type", "boolean"}};
     case KeyForm::text:

@@ -88,6 +88,7 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
 struct FoundLogs {
   std::vector<std::pair<engine::LogHeader, std::vector<std::filesystem::path>>> studies;
   std::vector<std::string> unreadable;  // the error of each log that cannot be read
+  std::vector<std::string> cut_off;     // logs that end in their header, and hold nothing
 };
 
 FoundLogs logs_beside(const std::filesystem::path& file) {
@@ -95,7 +96,10 @@ FoundLogs logs_beside(const std::filesystem::path& file) {
   for (const auto& log : engine::find_logs(file)) {
     try {
       const auto study = engine::study_of_log(log);
-      if (!study) continue;  // cut off in its header
+      if (!study) {
+        found.cut_off.push_back(log.string());
+        continue;
+      }
       auto known = std::find_if(found.studies.begin(), found.studies.end(),
                                 [&](const auto& some) { return some.first == *study; });
       if (known == found.studies.end()) known = found.studies.insert(known, {*study, {}});
@@ -129,7 +133,7 @@ int status_command(const std::filesystem::path& file, std::ostream& out) {
   const bool is_there = std::filesystem::exists(file);
   if (is_there) refuse_study(file);
   const FoundLogs found = logs_beside(file);
-  if (!is_there && found.studies.empty() && found.unreadable.empty())
+  if (!is_there && found.studies.empty() && found.unreadable.empty() && found.cut_off.empty())
     throw engine::IoError(file, "there is no such file, and no shard log beside it");
   for (const auto& [study, logs] : found.studies) {
     fmt::print(out, "{}: {}\n", file.string(), state_of_logs(file, study));
@@ -137,6 +141,9 @@ int status_command(const std::filesystem::path& file, std::ostream& out) {
   }
   for (const std::string& problem : found.unreadable)
     fmt::print(out, "{:<22} {}\n", "unreadable log", problem);
+  for (const std::string& log : found.cut_off)
+    fmt::print(out, "{:<22} {}: it ends in its header, so nothing of it is lost; a run begins it anew\n",
+               "empty log", log);
   if (is_there) print_file(file, out);
   return found.unreadable.empty() ? exit_code::done : exit_code::input_output;
 }

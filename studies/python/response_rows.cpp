@@ -11,7 +11,6 @@
 #include "studies/map/output_quantities.hpp"
 #include "studies/map/row_solver.hpp"
 #include "studies/reading/name_pattern.hpp"
-#include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -159,7 +158,7 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const std:
     std::vector<std::string> known;
     for (const periodic::Quantity& each : all) known.push_back(name_of(study, each));
     throw StudyError(rules::unknown_name, "{}: there is no quantity \"{}\"{}", study.source.name, name,
-                     suggestion(name, known));
+                     hint_of_unmatched(name, known));
   }
   return called;
 }

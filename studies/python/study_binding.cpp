@@ -29,14 +29,23 @@ TomlTable table_of(const py::dict& dictionary, const std::string& place, int dep
   return table;
 }
 
+// TOML's whole numbers have 64 bits.
+std::int64_t whole_number(py::handle value, const std::string& place) {
+  const py::int_ number(py::reinterpret_borrow<py::object>(value));
+  int overflow = 0;
+  const long long result = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow == 0) return result;
+  throw studies::StudyError(studies::rules::out_of_range,
+                            "{}: a whole number beyond 64 bits; write it as a float, such as 1e20", place);
+}
+
 // place: its keys, for messages. numbers.Integral and numbers.Real hold NumPy's numbers too.
 TomlValue toml_of(py::handle value, const std::string& place, int depth) {
   if (depth > kDeepest)
     throw studies::StudyError(studies::rules::too_large, "{}: nested deeper than {} levels", place, kDeepest);
   const py::module_ numbers = py::module_::import("numbers");
   if (py::isinstance<py::bool_>(value)) return {{}, value.cast<bool>()};
-  if (py::isinstance(value, numbers.attr("Integral")))
-    return {{}, py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>()};
+  if (py::isinstance(value, numbers.attr("Integral"))) return {{}, whole_number(value, place)};
   if (py::isinstance(value, numbers.attr("Real")))
     return {{}, py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>()};
   if (py::isinstance<py::str>(value)) return {{}, value.cast<std::string>()};

@@ -59,10 +59,10 @@ class AssignmentReading {
 
   double factor(const Parameter& parameter, std::string_view unit) const {
     if (study_.dimensionless) {
-      if (unit != "1")
-        fail(rules::unit_in_dimensionless,
-             fmt::format("the unit \"{}\" has no meaning in a dimensionless study", unit));
-      return 1.0;
+      if (unit == "1") return 1.0;
+      if (const auto pure = UnitSystem().pure_factor(unit)) return *pure;
+      fail(rules::unit_in_dimensionless,
+           fmt::format("the unit \"{}\" has no meaning in a dimensionless study", unit));
     }
     try {
       return si_factor(parameter, UnitSystem().parse(unit));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/study_reading.hpp"
 
 // `branches` of [output].
@@ -119,7 +120,8 @@ std::vector<std::size_t> elements_with_events(const mechanics::Network& network)
   std::vector<std::size_t> found;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const mechanics::Element& element = network.elements[e];
-    if (mechanics::has_contact(element) || !element.bends.empty()) found.push_back(e);
+    const bool has_events = mechanics::has_contact(element) || !element.bends.empty();
+    if (has_events && mechanics::told_by(network, e) == e) found.push_back(e);
   }
   return found;
 }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "studies/reading/plain_text.hpp"
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/study_source.hpp"
 #include "studies/reading/trimmed.hpp"
@@ -128,7 +129,7 @@ std::optional<double> cell_number(std::string_view cell) {
 
 std::string cell_problem(const std::string& cell) {
   if (cell.empty()) return "is empty; must be a finite number";
-  const std::string shown = cell.substr(0, longest_shown);
+  const std::string shown = shortened(cell, longest_shown);
   if (cell_number(cell)) return fmt::format("\"{}\" is not a finite number", shown);
   return fmt::format("\"{}\" is not a number{}", shown,
                      is_decimal_comma(cell) ? "; decimals are written with a point" : "");

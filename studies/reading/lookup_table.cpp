@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "studies/reading/csv_table.hpp"
+#include "studies/reading/plain_text.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
@@ -28,7 +29,7 @@ std::optional<Point> as_point(const CsvRow& row) {
 std::string shown(const CsvRow& row) {
   std::string text = row.cells.front();
   for (std::size_t i = 1; i < row.cells.size(); ++i) text += row.separator + row.cells[i];
-  return text.substr(0, longest_row);
+  return shortened(text, longest_row);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 namespace frahm::studies {
@@ -10,5 +11,9 @@ bool is_pattern(const std::string& text);
 
 // Whether a name is the one given, or one that the pattern stands for.
 bool matches(const std::string& name_or_pattern, const std::string& name);
+
+// What a message says of a name or pattern that matches none of these: "; did you mean ...?", and where a
+// star stops.
+std::string hint_of_unmatched(const std::string& name_or_pattern, std::span<const std::string> names);
 
 }  // namespace frahm::studies

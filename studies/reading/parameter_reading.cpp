@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
@@ -98,6 +99,23 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   return table;
 }
 
+// Of a text such as "3 Hz", which is no expression: how a number with a unit is written.
+std::string hint_of_unit(const StudyContext& context, const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (context.dimensionless || error != std::errc{}) return "";
+  const std::string_view rest = std::string_view(text).substr(static_cast<std::size_t>(end - text.data()));
+  const std::size_t begin = rest.find_first_not_of(" *");
+  if (begin == std::string_view::npos) return "";
+  const std::string_view unit = rest.substr(begin);
+  try {
+    context.units.parse(unit);
+  } catch (const UnitError&) {
+    return "";
+  }
+  return fmt::format("; a number with a unit is {{ value = {}, unit = \"{}\" }}", number, unit);
+}
+
 Expression parsed_expression(const StudyContext& context, const Parameters& parameters,
                              const std::string& where, const TomlValue& value) {
   if (!value.as<std::string>())
@@ -108,8 +126,8 @@ Expression parsed_expression(const StudyContext& context, const Parameters& para
     return Expression::parse(text, parameters.names());
   } catch (const ExpressionError& error) {
     throw context.source.error_at(error.rule(),
-                                  context.source.inside_string(value.position, error.column() - 1), "{}: {}",
-                                  where, error.what());
+                                  context.source.inside_string(value.position, error.column() - 1),
+                                  "{}: {}{}", where, error.what(), hint_of_unit(context, text));
   }
 }
 
@@ -235,6 +253,10 @@ NumberWithUnit read_number_with_unit(const StudyContext& context, const std::str
   const double number = section.number("value");
   const TomlValue* unit = section.find("unit");
   if (!unit) return {number, std::nullopt, value.position};
+  if (context.dimensionless && unit->as<std::string>()) {
+    if (const auto factor = context.units.pure_factor(*unit->as<std::string>()))
+      return {number * *factor, std::nullopt, value.position};
+  }
   return {number, read_unit(context, where, *unit), unit->position};
 }
 
@@ -245,8 +267,11 @@ std::optional<Unit> read_unit(const StudyContext& context, const std::string& wh
   };
   if (context.dimensionless) {
     if (text != "1")
-      fail(rules::unit_in_dimensionless,
-           fmt::format("\"{}\" has no meaning in a dimensionless study; leave it out or write \"1\"", text));
+      fail(
+          rules::unit_in_dimensionless,
+          fmt::format("\"{}\" has no meaning in a dimensionless study; leave it out or write \"1\" (an angle "
+                      "may be {{ value = 90, unit = \"degree\" }}; elsewhere it is in radians)",
+                      text));
     return std::nullopt;
   }
   try {

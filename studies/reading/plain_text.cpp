@@ -36,6 +36,13 @@ std::string plain_text(std::string_view text) {
   return plain;
 }
 
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  while (most > 0 && continues(text[most])) --most;
+  return std::string(text.substr(0, most)) + "...";
+}
+
 bool is_plain_line(std::string_view text) {
   return plain_text(text) == text && text.find_first_of("\n\t") == std::string_view::npos;
 }

@@ -29,7 +29,7 @@ std::vector<std::size_t> matching_masses(const TomlSection& section, const mecha
     section.fail(rules::unknown_name, "profile",
                  "no mass is called \"{}\"{}; \"all\" takes all of them, \"floor*\" those whose names begin "
                  "with floor",
-                 pattern, suggestion(pattern, network.masses));
+                 pattern, hint_of_unmatched(pattern, network.masses));
   return masses;
 }
 

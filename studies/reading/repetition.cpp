@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
 #include "studies/reading/toml_section.hpp"
 
 namespace frahm::studies {
@@ -25,21 +26,26 @@ class Repetition {
  public:
   explicit Repetition(const StudySource& source) : source_(source) {}
 
-  void write_out(TomlValue& value) {
+  // section: by which the table of keys calls the value.
+  void write_out(TomlValue& value, const std::string& section = "") {
     if (auto* table = std::get_if<TomlTable>(&value.content)) {
-      for (TomlEntry& entry : *table) write_out(entry.value);
+      for (TomlEntry& entry : *table) write_out(entry.value, inner(section, entry.key));
     } else if (auto* list = std::get_if<TomlArray>(&value.content)) {
-      write_out(*list);
+      write_out(*list, section);
     }
   }
 
  private:
-  void write_out(TomlArray& list) {
+  static std::string inner(const std::string& section, const std::string& key) {
+    return section.empty() ? key : section + "." + key;
+  }
+
+  void write_out(TomlArray& list, const std::string& section) {
     TomlArray result;
     for (TomlValue& value : list) {
       const TomlEntry* repeat = value.as<TomlTable>() ? find_entry(value, key_of_repetition) : nullptr;
       if (!repeat) {
-        write_out(value);
+        write_out(value, section);
         result.push_back(std::move(value));
         continue;
       }
@@ -51,7 +57,7 @@ class Repetition {
         TomlValue copy = value;
         std::erase_if(std::get<TomlTable>(copy.content),
                       [](const TomlEntry& entry) { return entry.key == key_of_repetition; });
-        replace(copy, indices);
+        replace(copy, section, indices);
         result.push_back(std::move(copy));
       } while (next(indices));
     }
@@ -102,17 +108,38 @@ class Repetition {
   }
 
   // In all texts and keys of a value.
-  void replace(TomlValue& value, const Indices& indices) const {
+  void replace(TomlValue& value, const std::string& section, const Indices& indices) const {
     if (auto* text = std::get_if<std::string>(&value.content)) {
       *text = replaced(*text, indices, value.position);
     } else if (auto* list = std::get_if<TomlArray>(&value.content)) {
-      for (TomlValue& each : *list) replace(each, indices);
+      for (TomlValue& each : *list) replace(each, section, indices);
     } else if (auto* table = std::get_if<TomlTable>(&value.content)) {
       for (TomlEntry& entry : *table) {
         entry.key = replaced(entry.key, indices, entry.position);
-        replace(entry.value, indices);
+        const std::optional<std::int64_t> number =
+            takes_number(section, entry.key) ? index_alone(entry.value, indices) : std::nullopt;
+        if (number)
+          entry.value.content = *number;
+        else
+          replace(entry.value, inner(section, entry.key), indices);
       }
     }
+  }
+
+  // Whether the key's value is a plain number, which is no text: order = "{n}".
+  static bool takes_number(std::string_view section, std::string_view key) {
+    return std::ranges::any_of(study_keys(), [&](const StudyKey& each) {
+      const auto is_number = [](KeyForm form) { return form == KeyForm::integer || form == KeyForm::number; };
+      return section == each.section && key == each.key &&
+             (is_number(each.form) || (each.has_other && is_number(each.other)));
+    });
+  }
+
+  // The number of a text that is an index and nothing else.
+  static std::optional<std::int64_t> index_alone(const TomlValue& value, const Indices& indices) {
+    const auto* text = value.as<std::string>();
+    if (!text || !text->starts_with('{') || !text->ends_with('}')) return std::nullopt;
+    return number_of(text->substr(1, text->size() - 2), indices);
   }
 
   std::string replaced(const std::string& text, const Indices& indices, Position position) const {

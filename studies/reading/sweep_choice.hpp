@@ -22,7 +22,8 @@ struct BranchChoice {
 
 // Whether a number is a value of an axis, but for the rounding of units.
 bool is_on_axis(double value, double of_axis);
-// The elements that may begin to stick, to stop or to touch: indices in Network::elements.
+// The elements that may begin to stick, to stop or to touch, the sliders of an iwan element as one: indices
+// in Network::elements.
 std::vector<std::size_t> elements_with_events(const mechanics::Network& network);
 
 // A second response at the same points: another friction law, the cranks' motion cut at another order, or

@@ -77,9 +77,23 @@ UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section,
   return unit;
 }
 
+// Where the frequency is a fixed number there is no parameter that a band could run over.
+void refuse_fixed_frequency(const TuneReading& reading, const TomlSection& section, const char* key) {
+  const Study& study = reading.study;
+  if (!study.parameters.inputs_of(study.values.omega.expression.reads()).empty()) return;
+  const std::string message =
+      "the excitation's frequency is a fixed number, and a band runs over a parameter: write frequency = "
+      "\"omega\", [parameters] omega = { value = 3, unit = \"Hz\" }, and band = { parameter = \"omega\", "
+      "from = 3, "
+      "to = 3, unit = \"Hz\" } for this one frequency";
+  *key ? section.fail(rules::wrong_dependence, key, "{}", message)
+       : section.fail_here(rules::missing_key, "the key \"band\" is missing: {}", message);
+}
+
 void read_band(TuneReading& reading, const TomlSection& section) {
   const TomlValue* value = section.find("band");
   if (!value) return;
+  refuse_fixed_frequency(reading, section, "band");
   const TomlSection band(reading.context.source, *value, "[tune]: band", "tune.band");
   BandChoice choice;
   choice.position = band.position();
@@ -98,13 +112,26 @@ void read_band(TuneReading& reading, const TomlSection& section) {
 void require_band(const TuneReading& reading, const TomlSection& section) {
   const TuneChoice& choice = reading.choice;
   if (choice.band) return;
-  if (choice.objective != Objective::variance)
-    section.fail_here(
-        rules::missing_key,
-        "the key \"band\" is missing: band = {{ parameter = \"omega\", from = 15.0, to = 35.0 }}");
+  if (choice.objective != Objective::variance) {
+    refuse_fixed_frequency(reading, section, "");
+    section.fail_here(rules::missing_key,
+                      "the key \"band\" is missing: band = {{ parameter = \"omega\", from = 15.0, to = 35.0 "
+                      "}}; one frequency is "
+                      "from = to");
+  }
   if (!choice.limits.empty() || choice.trade_off)
     section.fail_here(rules::missing_key,
                       "the key \"band\" is missing: limits hold over a band of frequencies");
+}
+
+// White noise is of all frequencies: only limits, which are of harmonic responses, hold over a band.
+void refuse_idle_band(const TuneReading& reading, const TomlSection& section) {
+  const TuneChoice& choice = reading.choice;
+  if (choice.objective != Objective::variance || !choice.band || !choice.limits.empty() || choice.trade_off)
+    return;
+  section.fail(rules::key_without_use, "band",
+               "a variance under white noise is over all frequencies, and there is no limit that would hold "
+               "over this band; leave it out, or write objective = \"mean_square\", which is over the band");
 }
 
 void read_trade_off(TuneReading& reading, const TomlSection& section) {
@@ -290,6 +317,7 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
   require_band(reading, section);
   if (section.find("weight")) choice.weight = read_formula(reading, section, "weight");
   check_weight(reading, section);
+  refuse_idle_band(reading, section);
   check_dominate(reading, section);
   choice.dominate_constant = section.find("dominate") != nullptr;
   study.choice = std::move(choice);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 
+#include "studies/reading/plain_text.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
@@ -167,9 +168,12 @@ bool Unit::counts_cycles() const {
 double si_factor(const Unit& unit, Quantity expected) {
   if (!has_dimension(unit, expected)) {
     const QuantityEntry& wanted = entry(expected);
-    throw UnitError(rules::wrong_dimension,
-                    fmt::format("the unit \"{}\" is that of {}, but {} is expected (such as {})", unit.text,
-                                dimension_name(unit), wanted.name, wanted.examples));
+    const bool is_gram = expected == Quantity::acceleration && unit.text == "g";
+    throw UnitError(
+        rules::wrong_dimension,
+        fmt::format("the unit \"{}\" is that of {}, but {} is expected (such as {}){}", unit.text,
+                    dimension_name(unit), wanted.name, wanted.examples,
+                    is_gram ? "; \"g\" is the gram: did you mean \"gravity\", 9.80665 m/s2?" : ""));
   }
   const bool rotates = expected == Quantity::angular_frequency || expected == Quantity::angular_acceleration;
   const bool cycles = rotates && unit.radians == 0;
@@ -232,7 +236,7 @@ Unit UnitSystem::parse(std::string_view text) const {
     throw UnitError(rules::unknown_unit,
                     "the unit is empty (leave it out for SI, or write \"1\" for a pure number)");
   if (text.size() > longest_unit || padded || text.find('\0') != std::string_view::npos) {
-    throw UnitError(rules::unknown_unit, fmt::format("\"{}\" is not a unit", text.substr(0, longest_unit)));
+    throw UnitError(rules::unknown_unit, fmt::format("\"{}\" is not a unit", shortened(text, longest_unit)));
   }
   Reading reading;
   reading.unit.text = text;
@@ -253,6 +257,17 @@ Unit UnitSystem::parse(std::string_view text) const {
   const bool is_number = text != "1" && text.find_first_not_of("0123456789.eE+- ") == std::string_view::npos;
   if (is_number) throw UnitError(rules::unknown_unit, fmt::format("\"{}\" is a number, not a unit", text));
   return reading.unit;
+}
+
+std::optional<double> UnitSystem::pure_factor(std::string_view text) const {
+  try {
+    const Unit unit = parse(text);
+    const bool is_pure =
+        unit.exponents == std::array<int, 3>{} && !unit.foreign && unit.radians <= 1 && unit.radians >= 0;
+    return is_pure ? std::optional(unit.scale) : std::nullopt;
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
 }
 
 double UnitSystem::to_si(double value, std::string_view unit, Quantity expected) const {

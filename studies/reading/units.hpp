@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -98,6 +99,10 @@ class UnitSystem {
 
   // Throws UnitError for a text that is not a unit, or not a proportional one (degC, dB, dates).
   Unit parse(std::string_view text) const;
+
+  // The factor of a unit of pure numbers or angles, "degree" or "percent": of what a dimensionless study may
+  // have too, in radians. Nothing of another unit, or of no unit.
+  std::optional<double> pure_factor(std::string_view text) const;
 
   // `value` of `unit` in the SI unit of `expected`. Throws UnitError.
   double to_si(double value, std::string_view unit, Quantity expected) const;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "solvers/tuning/exchange/band_scan.hpp"
 #include "studies/record/group_columns.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
@@ -20,6 +22,11 @@ struct TuningAbout {
   TuningAbout(const Study& of_study, const TuningResult& of_result);
 
   double spoken_band(double si) const { return tune.band ? si / tune.band->unit.si_factor : si; }
+  // Of the certificate of a worst peak over a band, in the band's unit.
+  std::optional<double> least_width_seen() const {
+    if (!tune.band || tune.objective != tuning::Objective::minimax) return std::nullopt;
+    return spoken_band(tuning::least_width_seen(tune.band->range));
+  }
 
   const Study& study;
   const TuneChoice& tune;

@@ -36,6 +36,9 @@ void add_numbers(const TuningAbout& about, GroupColumns& columns) {
   columns.add_number("certificate_gap", "1",
                      "(objective - bound) / objective: what no active frequency has seen",
                      about.optimum.certificate_gap);
+  if (const auto width = about.least_width_seen())
+    columns.add_number("certificate_width", about.band_unit,
+                       "along the band; a peak that is narrower may be missed by the certificate", *width);
   columns.add_number("kkt_residual", "1", "residual of the conditions of a local optimum",
                      about.optimum.kkt_residual);
   columns.add_number("tolerance", "1", "of the certificate gap and the KKT residual", about.tune.tolerance);

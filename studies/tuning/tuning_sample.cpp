@@ -41,8 +41,8 @@ double curves_of(const TuneChoice& tune) {
   return sides * std::max(1.0, static_cast<double>(tune.scenarios.size()));
 }
 
-// Of each record and scenario: one for each round, most of which few starts need; more where the samples above
-// a quantile are chosen again.
+// Of each record and scenario: one for each round, most of which few starts need; more where the samples
+// above a quantile are chosen again.
 void expect_motions(const TuneChoice& tune, TuningSample& sample) {
   const double motions = static_cast<double>(tune.peaks->records.size()) * curves_of(tune);
   sample.least_responses = 4.0 * motions;
@@ -90,13 +90,15 @@ TuningSample sample_tuning(const StudyPlan& plan, double seconds) {
   };
   const tuning::Task task = tuning_task(plan.study);
   StartResult first{.number = 0, .optima = tune_start(plan.study, task, 0, stop)};
-  TuningSample sample{.seconds = seconds_since(start), .is_whole = !was_stopped};
+  TuningSample sample{.seconds = seconds_since(start), .is_whole = !was_stopped, .why_no_design = {}};
   for (const tuning::Optimum& optimum : first.optima) sample.responses += optimum.orbits;
   if (was_stopped) {
     expect_responses(*plan.study.tune(), task.start, first.optima, sample);
     predict(sample);
     return sample;
   }
+  if (const tuning::Optimum& optimum = first.optima.back(); std::isnan(optimum.objective))
+    sample.why_no_design = optimum.reason;
   sample.least_seconds = sample.most_seconds = sample.seconds;
   const auto assessment = Clock::now();
   tuning_result(plan.study, {std::move(first)}, [] { return false; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "studies/record/study_plan.hpp"
 
@@ -10,6 +11,7 @@ namespace frahm::studies {
 struct TuningSample {
   double seconds = 0.0;                            // that the sample took
   bool is_whole = false;                           // the start ended within it
+  std::string why_no_design;                       // of a whole one that found none with an objective
   std::uint64_t responses = 0;                     // computed in it
   double least_responses = 0, most_responses = 0;  // that a start usually takes, if it is not whole
   double least_seconds = 0.0, most_seconds = 0.0;  // of a start; equal if it is whole

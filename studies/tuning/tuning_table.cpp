@@ -73,6 +73,14 @@ void print_design(const TuningAbout& about, std::ostream& out) {
   }
 }
 
+// "; peaks narrower than 3e-08 rad/s may be missed"
+std::string unseen_words(const TuningAbout& about) {
+  const auto width = about.least_width_seen();
+  if (!width) return "";
+  return fmt::format("; peaks narrower than {} may be missed",
+                     with_unit(fmt::format("{:.1g}", *width), about.band_unit));
+}
+
 void print_objective(const TuningAbout& about, std::ostream& out) {
   const Optimum& optimum = about.optimum;
   const std::string unit = objective_unit(about.study);
@@ -89,7 +97,8 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
     fmt::print(out, "  no schedule below     {} with these constants, as far as a grid shows\n",
                eight_digits(optimum.path_bound, unit));
   if (!std::isnan(optimum.certificate_gap))
-    fmt::print(out, "{:<24}{:.3g} (relative)\n", "certificate gap", optimum.certificate_gap);
+    fmt::print(out, "{:<24}{:.3g} (relative){}\n", "certificate gap", optimum.certificate_gap,
+               unseen_words(about));
   if (!std::isnan(optimum.kkt_residual))
     fmt::print(out, "{:<24}{:.3g}\n", "KKT residual", optimum.kkt_residual);
   if (optimum.violation > 0.0) fmt::print(out, "{:<24}{:.3g}\n", "violation", optimum.violation);
@@ -235,6 +244,14 @@ void print_effort(const TuningAbout& about, std::ostream& out) {
              outcome_words().at(static_cast<std::size_t>(about.optimum.outcome)), about.optimum.reason);
 }
 
+// "omega = 15 .. 35 rad/s"
+std::string band_words(const Study& study) {
+  const BandChoice& band = *study.tune()->band;
+  const double factor = band.unit.si_factor;
+  return fmt::format("{} = {:.6g} .. {}", study.parameters.list[band.parameter].name,
+                     band.range.from / factor, eight_digits(band.range.to / factor, band.unit.text));
+}
+
 }  // namespace
 
 void print_task(const Study& study, std::ostream& out) {
@@ -245,18 +262,14 @@ void print_task(const Study& study, std::ostream& out) {
                     : tune.objective == tuning::Objective::mean_square ? "least mean square of"
                                                                        : "least variance of";
   fmt::print(out, "{:<22}{} {}", "tuned for", how, tune.quantity_name);
-  if (tune.band) {
-    const BandChoice& band = *tune.band;
-    const double factor = band.unit.si_factor;
-    fmt::print(out, " over {} = {:.6g} .. {}", study.parameters.list[band.parameter].name,
-               band.range.from / factor, eight_digits(band.range.to / factor, band.unit.text));
-  }
+  const bool is_of_noise = tune.objective == tuning::Objective::variance;
+  if (tune.band && !is_of_noise) fmt::print(out, " over {}", band_words(study));
   if (tune.peaks)
     fmt::print(out, " over {} record{} of {:.6g} s", tune.peaks->records.size(),
                tune.peaks->records.size() == 1 ? "" : "s", tune.peaks->duration);
-  if (tune.objective == tuning::Objective::variance)
-    fmt::print(out, " under white noise, {}", noise_words(study));
+  if (is_of_noise) fmt::print(out, " under white noise, {}", noise_words(study));
   fmt::print(out, "\n");
+  if (tune.band && is_of_noise) fmt::print(out, "{:<22}{}\n", "limits hold over", band_words(study));
   if (!tune.drawn.empty())
     fmt::print(out, "{:<22}{}{}\n", "samples", tune.drawn,
                tune.quantile < 1.0 ? fmt::format(", of which the share {} counts", tune.quantile) : "");

@@ -141,6 +141,7 @@ PARTLY_BEYOND = [
     ("empty", r"has no stop on either side", "infinity, which JSON has not"),
     ("wrong_type", r"path of a dataset|whole number, found the number", "columns of HDF5; 3.0 is whole for JSON"),
     ("not_a_name", r"\{", "{i} in a name, without its repeat"),
+    ("wrong_type", r"found the text \"\{", "{n} for a number, without its repeat"),
     ("missing_key", r"\"frequency\"|\"duration\" is missing|\"band\" is missing|\"file\" is missing", "what depends on other sections"),
     ("missing_key", r"columns|reference_frequency|added_mass|static_displacement|force / stiffness", "what depends on the columns of the data"),
     ("missing_key", r"what is uncertain is missing", "an empty list of what is uncertain"),
@@ -150,7 +151,7 @@ PARTLY_BEYOND = [
     ("key_without_use", r"fitted; a|it is tuned|runs over the band|go along it|does not go with time|order 0", "a name or a column beside another"),
     ("key_without_use", r"has no use here; it is the mass added", "what depends on the columns of the data"),
     ("key_without_use", r"over records|under records|of samples|is of files|\[\[excitation.record\]\]|is a scenario", "records and samples of other sections"),
-    ("key_without_use", r"\[\[design\]\]|schedule|there is no band|a variance has no|belongs to (start|objective)", "forms of a tuning"),
+    ("key_without_use", r"\[\[design\]\]|schedule|there is no band|a variance has no|a variance under white noise|belongs to (start|objective)", "forms of a tuning"),
 ]
 
 

@@ -185,5 +185,14 @@ TEST_CASE("status tells the tasks of every number of shards, and tiles where the
                               Catch::Contains("not a shard log"));
 }
 
+TEST_CASE("the state of a log that ends in its header is a state, on standard output") {
+  const Folder folder;
+  folder.write("cut.h5.shard-0-of-1.frahm-log", std::string("FRAHMLOG"));
+  const auto cut = frahm({"status", folder / "cut.h5"});
+  CHECK(cut.code == 0);
+  CHECK(cut.err.empty());
+  CHECK_THAT(cut.out, Catch::Contains("empty log") && Catch::Contains("it ends in its header"));
+}
+
 }  // namespace
 }  // namespace shards_test

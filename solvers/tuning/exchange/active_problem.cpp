@@ -170,7 +170,8 @@ double ActiveProblem::variance(std::span<const double> x, std::span<double> grad
       for (std::size_t p = 0; p < space_.parameters() && !gradient.empty(); ++p)
         gradient[p] += share * slopes[p];
     }
-  } catch (const mechanics::MechanicsError&) {
+  } catch (const mechanics::MechanicsError& error) {
+    why_undefined_ = error.what();
     return kNone;  // infinite, or a value out of range: the step is taken back
   }
   return sum;

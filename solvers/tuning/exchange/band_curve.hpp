@@ -43,6 +43,8 @@ class BandCurve {
   // The larger side at each of many places at once; NaN where it has no value. Of an objective or a limit of
   // a network without several responses.
   void values(std::span<const double> x, std::span<const double> places, std::vector<double>& out);
+  // As of a TunedResponse.
+  void end_rows_when(const std::function<bool()>& stop_asked) { response_.end_rows_when(stop_asked); }
   const std::string& reason() const { return reason_; }
 
   // The larger side, or one of two (0: most, 1: least).

@@ -30,7 +30,7 @@ class Search {
   BandMaxima over(std::span<const double> seeds) {
     std::vector<CurvePoint> points;
     for (const double seed : seeds) points.push_back(ask(seed));
-    const double narrowest = 1e-9 * std::max(std::abs(seeds.front()), std::abs(seeds.back()));
+    const double narrowest = kNarrowest * std::max(std::abs(seeds.front()), std::abs(seeds.back()));
     for (std::size_t i = 0; i + 1 < points.size(); ++i) search(points[i], points[i + 1], narrowest);
     consider_seeds(points);
     return finished();

@@ -15,6 +15,9 @@ struct CurvePoint {
 };
 using CurveAt = std::function<CurvePoint(double at)>;
 
+// Intervals are halved down to this part of the larger end of the band.
+inline constexpr double kNarrowest = 1e-9;
+
 struct BandMaxima {
   std::vector<CurvePoint>
       maxima;  // ascending in `at`; the ends of the band are maxima where the curve falls inwards

@@ -13,6 +13,11 @@ constexpr PlacesFineness kScan{.intervals = 48};
 
 }  // namespace
 
+double least_width_seen(const Band& band) {
+  const double nearest = kScan.nearest * (band.to - band.from) / kScan.intervals;
+  return std::max(nearest, kNarrowest * std::max(std::abs(band.from), std::abs(band.to)));
+}
+
 std::vector<std::vector<double>> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
                                            std::span<const double> x, const PlacesFineness& fineness) {
   mechanics::NetworkValues values;

@@ -28,7 +28,7 @@ struct Scan {
   double worst = 0.0;             // of the objective's curves; infinite where the response has no bound
   double violation = 0.0;         // by which the other curves exceed 1
   bool failed = false, unbounded = false;
-  double at = 0.0;     // where it failed or is unbounded
+  double at = 0.0;     // where it failed or is unbounded; NaN: a variance, which is of no place of the band
   std::string reason;  // why
 };
 
@@ -51,6 +51,10 @@ class BandScan {
   const std::function<bool()>& stop_asked_;
   std::vector<std::unique_ptr<BandCurve>> responses_;  // of each curve
 };
+
+// The width below which a scan may miss a peak [band parameter, SI]: its points lie no closer about a
+// resonance, and intervals are halved no further.
+double least_width_seen(const Band& band);
 
 // Points of a curve's band at a design between which no peak is missed (resonance_places.hpp): a list for
 // each stretch between leaps of a schedule.

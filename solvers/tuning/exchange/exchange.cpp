@@ -73,6 +73,14 @@ double Exchange::integral(const Goal& goal, std::span<const double> x) {
   return problem.objective(x, {});
 }
 
+// Why the design has no variance; "" where it has one, or where the goal is another.
+std::string Exchange::why_no_variance(const Goal& goal, std::span<const double> x) {
+  if (goal.of != Goal::Of::variance) return "";
+  const std::vector<ActivePoint> none;
+  ActiveProblem problem(task_, space_, goal, curves_, none, {}, effort_, stop_asked_);
+  return std::isfinite(problem.objective(x, {})) ? "" : problem.why_undefined();
+}
+
 // The best design over the active frequencies.
 Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
                                const std::vector<ActivePoint>& active, SolverKind solver,
@@ -177,6 +185,11 @@ Exchange::Result Exchange::run_with(SolverKind solver, const Goal& goal, std::ve
   result.x = x;
   result.scan = scan_.of(x, kHighPeaks, kFine);
   if (stop_asked_()) return stopped(std::move(result));
+  if (const std::string why = why_no_variance(goal, x); !why.empty()) {
+    result.scan.failed = true;
+    result.scan.at = kNone;
+    result.scan.reason = why;
+  }
   if (result.scan.unbounded || result.scan.failed) {
     result.outcome = result.scan.unbounded ? Outcome::unbounded : Outcome::failed;
     return result;

@@ -60,6 +60,7 @@ class Exchange {
   static double gap_of(const Goal& goal, const Step& step, const Scan& scan);
   static Result stopped(Result result);
   bool is_broken(double violation) const;
+  std::string why_no_variance(const Goal& goal, std::span<const double> x);
   void conclude(const Goal& goal, bool gap_closed, Result& result) const;
 
   const Task& task_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,8 @@ class TunedResponse {
   // All quantities at each of many places at once, faster than one by one; NaN where there is no response.
   // Not of a network that may have several.
   std::span<const double> solve_row(std::span<const double> x, std::span<const double> places);
+  // A row ends early, its other places without a value, once this is true. It must outlive the response.
+  void end_rows_when(const std::function<bool()>& stop_asked) { response_.end_rows_when(stop_asked); }
   const std::string& reason() const { return reason_; }  // of the last solve, if not solved
 
   double value(std::size_t quantity) const { return value_[quantity]; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -11,8 +13,17 @@
 //
 //   minimise f(x)   subject to   lower_i <= x_i <= upper_i,   lower_j <= g_j(x) <= upper_j
 //
-// Bounds may be infinite; equal bounds fix a variable or make a constraint an equality.
+// Bounds may be infinite; equal bounds make a constraint an equality, and bounds with no more than rounding
+// between them fix a variable.
 namespace frahm::tuning {
+
+// Whether bounds are one value but for some ten roundings of it. In a scale of its own range such a variable
+// would be the number 1e14 and more.
+inline bool are_one_value(double lower, double upper) {
+  constexpr double kRounding = 1e-14;
+  const double size = std::max(std::abs(lower), std::abs(upper));
+  return lower == upper || (std::isfinite(size) && upper - lower <= kRounding * size);
+}
 
 struct Variable {
   std::string name;

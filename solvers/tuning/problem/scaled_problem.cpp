@@ -45,7 +45,7 @@ ScaledProblem::ScaledProblem(Problem& problem, const SolverOptions& options, Jud
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const Variable& v = problem.variables[i];
     at_.x.push_back(std::clamp(v.start, v.lower, v.upper));
-    if (v.lower == v.upper) continue;
+    if (are_one_value(v.lower, v.upper)) continue;
     place[i] = free_.size();
     free_.push_back(i);
   }

@@ -28,12 +28,14 @@ double largest_finite(const Eigen::MatrixXd& heights) {
 }  // namespace
 
 GridResponses::GridResponses(const Task& task, const std::vector<QuantityLimit>& limits,
-                             std::uint64_t& orbits)
+                             std::uint64_t& orbits, const std::function<bool()>& stop_asked)
     : task_(task),
       limits_(limits),
       orbits_(orbits),
       quantities_(limits.size() + 1),
-      response_(task.network, quantities_of(task, limits)) {}
+      response_(task.network, quantities_of(task, limits)) {
+  response_.end_rows_when(stop_asked);
+}
 
 ResponseGrid GridResponses::grid(std::span<const double> constants, std::size_t scheduled,
                                  std::span<const double> places, std::span<const double> levels) {
@@ -70,7 +72,7 @@ void GridResponses::solve_level(std::size_t scenario, std::span<const double> pl
                                 std::vector<double>& at) {
   row_.resize(places.size());
   found_.resize(places.size());
-  out_.resize(places.size() * quantities_);
+  out_.assign(places.size() * quantities_, kNone);
   for (std::size_t i = 0; i < places.size(); ++i) {
     at.back() = places[i];
     task_.network_at(scenario, at, row_[i], nullptr);

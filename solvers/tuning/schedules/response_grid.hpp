@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,9 +24,10 @@ struct ResponseGrid {
 // Computes such grids, a level's row of frequencies at a time.
 class GridResponses {
  public:
-  // task, limits, orbits: must outlive it. orbits: counts the responses. Not for networks that may take
-  // several orbits, of which a row tells one.
-  GridResponses(const Task& task, const std::vector<QuantityLimit>& limits, std::uint64_t& orbits);
+  // All must outlive it. orbits: counts the responses. stop_asked: between responses; after it a grid is not
+  // whole. Not for networks that may take several orbits, of which a row tells one.
+  GridResponses(const Task& task, const std::vector<QuantityLimit>& limits, std::uint64_t& orbits,
+                const std::function<bool()>& stop_asked);
 
   // constants: SI values of all parameters; that of `scheduled` is not read.  places: of the band, ascending.
   // levels: at least two, of the scheduled parameter.

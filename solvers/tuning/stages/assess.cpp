@@ -82,6 +82,7 @@ class Assessor {
     Curve result{.name = name, .value = {}, .worst = kNone};
     for (const CurveKind& kind : tuning.curves()) {
       BandCurve response(task_, tuning.space(), kind, effort_);
+      response.end_rows_when(stop_asked_);
       std::vector<double>& value = result.value.emplace_back();
       if (!response.response().may_jump()) {
         response.values(x, band, value);

@@ -17,7 +17,7 @@ constexpr PlacesFineness kSampled{.intervals = 16, .nearest = 1e-3};
 constexpr double kDecade = 10.0;
 
 bool varies(const DesignParameter& parameter) {
-  return parameter.lower < parameter.upper;
+  return !are_one_value(parameter.lower, parameter.upper);
 }
 
 std::size_t varying(const std::vector<DesignParameter>& parameters) {
@@ -162,10 +162,11 @@ std::vector<std::vector<double>> low_places_elsewhere(const DesignMap& map, std:
 }
 
 SampledCurves::SampledCurves(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves,
-                             Effort& effort)
+                             Effort& effort, const std::function<bool()>& stop_asked)
     : task_(task), space_(space), curves_(curves) {
   responses_.reserve(curves.size());
-  for (const CurveKind& curve : curves) responses_.emplace_back(task, space, curve, effort);
+  for (const CurveKind& curve : curves)
+    responses_.emplace_back(task, space, curve, effort).end_rows_when(stop_asked);
 }
 
 DesignMerit SampledCurves::at(std::span<const double> value) {

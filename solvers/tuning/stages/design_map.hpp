@@ -49,9 +49,10 @@ std::vector<std::vector<double>> low_places_elsewhere(const DesignMap& map, std:
 // of the true maxima.
 class SampledCurves {
  public:
-  // All must outlive it. task: not of several responses.
+  // All must outlive it. task: not of several responses. stop_asked: between responses; after it a design has
+  // no merit.
   SampledCurves(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves,
-                Effort& effort);
+                Effort& effort, const std::function<bool()>& stop_asked);
 
   // Its objective is 0 where no curve is of the objective.
   DesignMerit at(std::span<const double> value);

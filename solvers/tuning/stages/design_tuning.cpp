@@ -149,7 +149,7 @@ Exchange::Result DesignTuning::best_constant(const Starts& starts, Stages& stage
 }
 
 DesignMap DesignTuning::map() {
-  SampledCurves sampled(task_, constant_space_, curves_, effort_);
+  SampledCurves sampled(task_, constant_space_, curves_, effort_, stop_asked_);
   Exchange exchange(task_, constant_space_, curves_, effort_, stop_asked_);
   const auto merit_at = [&](std::span<const double> value) {
     DesignMerit merit = sampled.at(value);

@@ -38,6 +38,7 @@ std::string sentence(Outcome outcome, const Stages& stages) {
     case Outcome::unbounded:
       return "the response has no bound at " + number(scan.at) + " of the band: " + scan.reason;
     case Outcome::failed:
+      if (std::isnan(scan.at)) return "the design has no variance: " + scan.reason;
       return "the response could not be computed at " + number(scan.at) + " of the band: " + scan.reason;
     case Outcome::stopped:
       break;

@@ -18,7 +18,7 @@ constexpr double kMapPoints = 64.0;  // of the constants' box
 constexpr int kHalvings = 4;         // of the steps about the best of them
 
 bool is_free(const DesignParameter& parameter) {
-  return !parameter.schedule && parameter.lower < parameter.upper;
+  return !parameter.schedule && !are_one_value(parameter.lower, parameter.upper);
 }
 
 // Whole columns within a change of the parameter, but for rounding.
@@ -33,13 +33,16 @@ bool PathSearch::serves(const Task& task) {
   const auto has_schedule = [](const DesignParameter& p) { return p.schedule.has_value(); };
   const auto scheduled = std::ranges::find_if(task.parameters, has_schedule);
   return task.objective == Objective::minimax && !task.dominate_constant &&
-         std::ranges::count_if(task.parameters, has_schedule) == 1 && scheduled->lower < scheduled->upper &&
-         !may_take_several_orbits(task.network);
+         std::ranges::count_if(task.parameters, has_schedule) == 1 &&
+         !are_one_value(scheduled->lower, scheduled->upper) && !may_take_several_orbits(task.network);
 }
 
 PathSearch::PathSearch(const Task& task, const std::vector<QuantityLimit>& limits, std::uint64_t& orbits,
                        const std::function<bool()>& stop_asked)
-    : task_(task), space_(task.parameters), stop_asked_(stop_asked), responses_(task, limits, orbits) {
+    : task_(task),
+      space_(task.parameters),
+      stop_asked_(stop_asked),
+      responses_(task, limits, orbits, stop_asked) {
   while (!parameter().schedule) ++scheduled_;
 }
 

@@ -34,6 +34,9 @@ def values_of_axis(name: str, given: Any, number: Callable[[str, str], float]) -
     if isinstance(listed, list):
         listed = [number(name, _text(name, each)) if isinstance(each, (str, Estimate)) else each for each in listed]
     try:
+        objects = np.asarray(listed)
+        if objects.dtype == object and any(each is None for each in objects.flat):  # NumPy would make it NaN
+            raise TypeError
         array = np.atleast_1d(np.asarray(listed, dtype=float))
     except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name}={short(given)}: must be a number or a list of numbers, or texts with a unit") from None
@@ -62,12 +65,12 @@ def plain(text: Any, what: str) -> str:
     return text
 
 
-def whole(value: Any, name: str, least: int) -> int:
-    """A whole number that the program can count to."""
+def whole(value: Any, name: str, least: int, most: int = 2**31 - 1) -> int:
+    """A whole number; most: by default what the program can count to."""
     if not isinstance(value, numbers.Integral):
         raise TypeError(f"{name}={short(value)}: must be a whole number")
-    if not least <= value < 2**31:
-        raise ValueError(f"{name}={short(value)}: must be from {least} to {2**31 - 1}")
+    if not least <= value <= most:
+        raise ValueError(f"{name}={short(value)}: must be from {least} to {most}")
     return int(value)
 
 

@@ -1,10 +1,10 @@
 """Runs: maps, tunings, motions and identifications, with their files."""
 
-import math
 import numbers
 import os
 import re
 import signal
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Optional
 
@@ -72,7 +72,7 @@ def _budget(seconds: Any) -> Optional[float]:
         return None
     if not isinstance(seconds, numbers.Real) or isinstance(seconds, bool):
         raise TypeError(f"time_budget={short(seconds)}: must be a number of seconds")
-    if not 0 < seconds < math.inf:
+    if not 0 < seconds <= sys.float_info.max:
         raise ValueError(f"time_budget={short(seconds)}: must be above 0 and finite [s]")
     return float(seconds)
 

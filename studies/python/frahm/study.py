@@ -21,6 +21,7 @@ from .tuning import Tuning, tuning_of
 
 Path = Union[str, os.PathLike]
 Kind = TypeVar("Kind")
+MOST_INSTANTS = 10_000_000  # of a history, as of a motion's samples: some hundred megabytes
 
 
 class Study:
@@ -114,7 +115,7 @@ class Study:
         self._refuse_misspelt(Study.point, parameters)
         if path not in ("fastest", "general"):
             raise ValueError(f"path={path!r}: must be \"fastest\" or \"general\"")
-        samples = 513 if history is True else whole(history, "history", 0)
+        samples = 513 if history is True else whole(history, "history", 0, MOST_INSTANTS)
         if samples == 1:
             raise ValueError(f"history={history}: must be at least 2 instants")
         place = {**self._dictionary(Study.point, at), **parameters}

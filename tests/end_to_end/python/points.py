@@ -83,6 +83,7 @@ class Points(unittest.TestCase):
             (ValueError, "speed .*UTF-8", {"speed": "600 \ud800"}),
             (TypeError, "history=2.5: must be a whole number", {"history": 2.5}),
             (ValueError, "history=1000.*from 0 to", {"history": 10**30}),
+            (ValueError, "history=1000000000: must be from 0 to 10000000", {"history": 10**9}),  # gigabytes
         ):
             with self.assertRaisesRegex(error, words):
                 study.point(**wrong)

@@ -122,6 +122,11 @@ class Rows(unittest.TestCase):
             study.response("speed", [[1, 2], [3, 4]])
         with self.assertRaisesRegex(TypeError, "speed=.*1j.*list of numbers"):
             study.response("speed", [1j])
+        for missing in ([600, None], np.array([600, None], dtype=object)):
+            with self.assertRaisesRegex(TypeError, "speed=.*None.*must be a number or a list of numbers"):
+                study.response("speed", missing)
+        with self.assertRaisesRegex(TypeError, "F=.*None.*must be a number or a list of numbers"):
+            study.response("speed", [600], F=[0, None])
         with self.assertRaisesRegex(ValueError, "speed: runs along the row"):
             study.response("speed", [600], speed=700)
         with self.assertRaisesRegex(TypeError, "a parameter's name: must be a text, not int"):

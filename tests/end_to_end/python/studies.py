@@ -36,6 +36,9 @@ class Studies(unittest.TestCase):
         changed["mass"][0]["mass"] = None
         with self.assertRaisesRegex(frahm.StudyError, "mass: .*NoneType"):
             frahm.Study.from_dict(changed)
+        changed["mass"][0]["mass"] = 10**20
+        with self.assertRaisesRegex(frahm.StudyError, "mass.mass: a whole number beyond 64 bits; write it as a float"):
+            frahm.Study.from_dict(changed)
 
     def test_what_is_no_dictionary_is_refused(self):
         with self.assertRaisesRegex(ValueError, "the file's name .*must not have a NUL character"):

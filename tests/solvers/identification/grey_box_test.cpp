@@ -303,6 +303,35 @@ TEST_CASE("A bound that holds a parameter is told of") {
   CHECK(found.notes[0].rfind("`F` is held by its upper bound", 0) == 0);
 }
 
+// On a belt that is always faster than the mass the friction is constant: x = x_e + (x_0 - x_e) cos(w t)
+// about x_e = (F + P)/k.
+TEST_CASE("A free motion is one without harmonics: a belt and a constant load act on") {
+  using namespace mechanics;
+  const Node ground{}, mass{NodeKind::mass, 0}, belt{NodeKind::prescribed, 0};
+  const Network network{
+      .masses = {"x"},
+      .prescribed = {"belt"},
+      .elements = {{"k", ElementType::spring, ground, mass}, {"F", ElementType::coulomb, belt, mass}},
+      .excitations = {
+          {ExcitationKind::force, 0, 1}, {ExcitationKind::belt, 0, 0}, {ExcitationKind::force, 0, 0}}};
+  const double k = 2.0, F = 0.7, P = 0.4, x_0 = 1.5;
+  const Model truth{
+      {.omega = 1.3, .mass = {1.0}, .element = {k, F}, .excitation = {{100.0, 0.0}, {10.0, 0.0}, {P, 0.0}}},
+      {{x_0}, {0.0}}};
+  TimeRecord record{"free", MotionKind::free, {}, {{"x_displacement", 0, Signal::displacement, {}}}, {}};
+  const double x_e = (F + P) / k, w = std::sqrt(k);
+  for (int i = 0; i <= 200; ++i) {
+    record.time.push_back(0.05 * i);
+    record.channels[0].values.push_back(x_e + (x_0 - x_e) * std::cos(w * record.time.back()));
+  }
+  check_found(fit(network, truth, {element("k", 0), element("F", 1)}, {1.1, 0.8}, {record}), truth,
+              {element("k", 0), element("F", 1)});
+  // The load instead of the friction: its own derivative.
+  const Place load{"P", [](Model& m) -> double& { return m.values.excitation[2].amplitude; }};
+  check_found(fit(network, truth, {element("k", 0), load}, {1.1, 0.5}, {record}), truth,
+              {element("k", 0), load});
+}
+
 TEST_CASE("A start without a meaning is refused") {
   const TimeRecord record =
       displacements("decay", MotionKind::free, kOscillator.network(), kReleased, 1.0, 100);

@@ -142,6 +142,14 @@ TEST_CASE("what is compared is what a study of the other law has itself") {
     CHECK(difference[i] == std::abs(own[i] - compared[i]) / own[i]);
 }
 
+TEST_CASE("a mean of nothing but rounding has no relative difference") {
+  const MapPlan plan = plan_of(oscillator() + axis("r", 0.8, 1.2, 3) + peaks + compare_laws +
+                               "quantities = [\"main_mean\", \"main_rms\"]\n");
+  const TileRecord tile = tile_of(plan, 0);
+  for (const double difference : values_of(plan, tile, "main_mean_difference")) CHECK(std::isnan(difference));
+  for (const double difference : values_of(plan, tile, "main_rms_difference")) CHECK(difference < 0.1);
+}
+
 TEST_CASE("a quantity can be compared that the study does not record itself") {
   const MapPlan plan = plan_of(oscillator() + axis("r", 0.8, 1.2, 2) + peaks + compare_laws +
                                "quantities = [\"main_rms\", \"main_peak\"]\n");

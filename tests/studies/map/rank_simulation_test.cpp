@@ -33,6 +33,19 @@ TEST_CASE("one rank of one thread loses nothing but start and assembly") {
   CHECK(with_ends.efficiency == Approx(10.0 / 15.0).epsilon(rounding));
 }
 
+TEST_CASE("the file is assembled by the ranks on the machine of rank 0, as far as one writer follows") {
+  RankCosts costs = only({{1000, 0.01}});
+  costs.assembly = 3.0;
+  costs.processors = 8;
+  CHECK(simulate_ranks(costs, 1, 1).assembly == Approx(3.0 / 13.0).epsilon(rounding));
+  const auto ten = simulate_ranks(costs, 10, 2);  // four ranks of two threads there
+  CHECK(ten.wall == Approx(0.5 + 3.0 / 8.0).epsilon(0.02));
+  CHECK(assembling_threads(8, 10, 2) == 8);
+  CHECK(assembling_threads(8, 3, 2) == 6);
+  CHECK(assembling_threads(2, 10, 4) == 4);
+  CHECK(assembling_threads(128, 100, 1) == 12);
+}
+
 TEST_CASE("equal tiles that divide evenly keep all ranks busy to the end") {
   const auto four = simulate_ranks(only({{4000, 0.5}}), 4, 1);
   CHECK(four.wall == Approx(500.0).epsilon(rounding));

@@ -1,10 +1,12 @@
 #include "studies/program/branch_command.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
 #include <string>
 
+#include "results/map_reader.hpp"
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/reading/study_source.hpp"
 #include "tests/results/temporary_directory.hpp"
@@ -75,6 +77,28 @@ TEST_CASE("The file of a branch has every point, from one end of the axis to the
   CHECK_THAT(std::stod(last), WithinAbs(2.0, kAgreement));
   const double peak = std::stod(last.substr(last.find(',') + 1));
   CHECK_THAT(peak, WithinAbs(frahm::periodic::classical_amplitude(2.0, zeta, 0.2), kAgreement));
+}
+
+// Each slider of an iwan element may stop, and they are told as one element.
+TEST_CASE(
+    "A branch of a system with sliders side by side is kept, its special points by the element's name") {
+  const StudyOnDisk study(
+      "[study]\nschema = 1\nkind = \"sweep\"\nunits = \"dimensionless\"\n[parameters]\nr = 1\n"
+      "[[mass]]\nname = \"m\"\nmass = 1\n"
+      "[[element]]\nname = \"k\"\ntype = \"spring\"\nbetween = [\"ground\", \"m\"]\nstiffness = 1\n"
+      "[[element]]\nname = \"w\"\ntype = \"iwan\"\nbetween = [\"ground\", \"m\"]\n"
+      "stiffnesses = [1, 2]\nforces = [0.1, 0.2]\n"
+      "[excitation]\nfrequency = \"r\"\n[[excitation.force]]\non = \"m\"\namplitude = 1\n" +
+      small_studies::axis("r", 0.2, 1.0, 5));
+  const auto file = study.path.parent_path() / "branch.h5";
+  const std::string report = told({.study = study.path, .along = "r", .output = file});
+  const frahm::results::MapReader result(file);
+  for (const frahm::results::Column& column : result.columns("branches")) {
+    if (column.variable.name != "special_element") continue;
+    CHECK(std::ranges::count(column.variable.flags, "w", &frahm::results::Flag::meaning) == 1);
+    const bool is_special = report.find("special points         none") == std::string::npos;
+    CHECK((std::ranges::count(column.values, 2.0) > 0) == is_special);
+  }
 }
 
 TEST_CASE("A branch without a response to start from says why") {

@@ -211,6 +211,40 @@ TEST_CASE("Checking a study of which nothing is computed ends like a run of fail
             "without a response: 2 of the 2 points tried, the first at r=1e-08: the excitation is too slow"));
 }
 
+// A node without mass has no inverse of its mass matrix, at any design.
+TEST_CASE("Checking a tuning that finds no design says why, as a run does, and calls it not valid") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "tune.toml";
+  std::ofstream(path) << small_tunings::heading << small_tunings::absorber
+                      << "[[mass]]\nname = \"sensor\"\nmass = 0\n"
+                         "[[element]]\nname = \"link\"\ntype = \"damper\"\nbetween = [\"main\", \"sensor\"]\n"
+                         "damping = 1e-3\n[[element]]\nname = \"weak\"\ntype = \"spring\"\n"
+                         "between = [\"ground\", \"sensor\"]\nstiffness = 1e-4\n"
+                         "[tune]\nobjective = \"variance\"\nquantity = \"sensor_rms\"\n"
+                         "noise = { force_on = \"main\" }\n"
+                      << small_tunings::of_f << small_tunings::of_zeta;
+  std::ostringstream out;
+  CHECK(check_command({.study = path, .threads = 1}, out) == 7);
+  INFO(out.str());
+  CHECK(!has(out.str(), "valid"));
+  CHECK(has(out.str(),
+            "tune.toml can be read, but its first start finds no design: the design has no variance: "
+            "the mass matrix of the moving nodes is not positive definite"));
+  CHECK(has(out.str(), "As the study states it there are no modes: the mass matrix"));
+}
+
+TEST_CASE("Checking an identification refuses what a run refuses") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "decay.toml";
+  std::ofstream(folder / "peaks.csv") << "extremum [mm],extremum_time [s]\n5.08,0\n4.064,1.4\n3.251,2.8\n";
+  std::ofstream(path) << "[study]\nschema = 1\nkind = \"identify\"\nunits = \"SI\"\n[identify]\n"
+                         "method = \"log_decrement\"\n[[identify.record]]\nfile = \"peaks.csv\"\n";
+  std::ostringstream out;
+  CHECK_THROWS_WITH(check_command({.study = path, .threads = 1}, out),
+                    Catch::Contains("maxima and minima must come in turn"));
+  CHECK(out.str().empty());
+}
+
 TEST_CASE("Checking a large building shows twelve modes at eight floors, and all of them when asked") {
   const TemporaryDirectory folder;
   const std::filesystem::path path = folder / "building.toml";

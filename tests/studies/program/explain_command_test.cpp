@@ -45,6 +45,10 @@ TEST_CASE("every type of element is explained by its force and its keys with uni
   CHECK_THAT(explained("maxwell"), Catch::Contains("damping = c [N s/m], of what turns [N m s/rad], > 0"));
   CHECK_THAT(explained("coulomb"),
              Catch::Contains("static_force = F_s") && Catch::Contains(">= 0; may be left out"));
+  CHECK_THAT(explained("gap"), Catch::Contains("on either side") && Catch::Contains("[lower, upper]"));
+  CHECK_THAT(explained("tension"), Catch::Contains("may pull too"));
+  CHECK_THAT(explained("mass.mass"), Catch::Contains("0 only where an inerter moves with it"));
+  CHECK_THAT(explained("nrmse"), Catch::Contains("100 is a perfect fit"));
   CHECK_THAT(explained("iwan"), Catch::Contains("jenkins") && Catch::Contains("\n  chi: "));
 }
 

@@ -49,6 +49,22 @@ TEST_CASE("a repeated table is read as if it were written out") {
   CHECK(values.excitation[2].amplitude == Approx(0.3));
 }
 
+TEST_CASE("an index alone stands for a number where a key takes no text") {
+  const Study study = parse_study(
+      heading +
+          "[[mass]]\nname = \"main\"\nmass = 1\n"
+          "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"ground\", \"main\"]\nstiffness = "
+          "1\n"
+          "[excitation]\nfrequency = \"r\"\n[[excitation.force]]\nrepeat = { n = [1, 5, 2] }\non = \"main\"\n"
+          "order = \"{n}\"\namplitude = \"1/{n}^2\"\n" +
+          small_studies::axis("r", 0.1, 0.2, 5),
+      "orders.toml");
+  REQUIRE(study.network.excitations.size() == 3);
+  CHECK(study.network.excitations[0].order == 1);
+  CHECK(study.network.excitations[1].order == 3);
+  CHECK(study.network.excitations[2].order == 5);
+}
+
 TEST_CASE("a repetition goes by steps, and over all combinations of several indices") {
   const Study study = parse_study(
       heading +

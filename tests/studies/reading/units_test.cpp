@@ -125,8 +125,11 @@ TEST_CASE("what is no unit is refused") {
   CHECK_THAT(complaint_about("1000", Quantity::number), Catch::Contains("is a number, not a unit"));
   CHECK_THAT(complaint_about("lg(re 1 mW)", Quantity::force), Catch::Contains("not proportional"));
   CHECK_THAT(complaint_about("s since 1990-01-01", Quantity::number), Catch::Contains("not proportional"));
+  CHECK_THAT(complaint_about("g", Quantity::acceleration),
+             Catch::Contains("did you mean \"gravity\", 9.80665 m/s2?"));
   CHECK_THAT(complaint_about(" N", Quantity::force), Catch::Contains("is not a unit"));
-  CHECK_THAT(complaint_about(std::string(10'000, '('), Quantity::force), Catch::Contains("is not a unit"));
+  CHECK_THAT(complaint_about(std::string(10'000, '('), Quantity::force),
+             Catch::Contains("(((...\" is not a unit"));
 }
 
 }  // namespace

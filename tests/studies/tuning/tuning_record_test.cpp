@@ -142,6 +142,14 @@ TEST_CASE("the assessment of an optimum ends where it is asked to stop, amid the
   CHECK(result.optimum().objective == 2.0);
 }
 
+TEST_CASE("the certificate of a worst peak says which width of a peak it may miss, in the band's unit") {
+  const Study study = parse(rig);  // 150 to 350 rpm
+  const auto columns = optimum_columns(study, rig_result(study));
+  const auto& width = named(columns, "certificate_width");
+  CHECK(width.variable.unit == "rpm");
+  CHECK_THAT(width.values.front(), Catch::WithinRel(1e-7 * 200.0 / 48.0, 1e-12));
+}
+
 TEST_CASE("a variance without a band has the objective of the design before beside that after") {
   const Study study = parse(
       heading + absorber +

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <stdexcept>
 
 #include "solvers/tuning/problem/kkt.hpp"
@@ -142,6 +143,23 @@ TEST_CASE("a fixed variable stays where it is, with the multiplier of its bound"
     const Solution nothing_to_do = solver.solve(problem);
     CHECK(nothing_to_do.ending == Ending::converged);
     CHECK(nothing_to_do.x == std::vector<double>{0.5, 0.25});
+  }
+}
+
+// In the scale of its range, as tunings scale it, such a variable was taken to grow without limit.
+TEST_CASE("a variable whose bounds are a rounding apart is fixed") {
+  for (const Solver& solver : local_solvers) {
+    for (const int roundings : {1, 5, 40}) {
+      INFO(solver.name() << ", " << roundings);
+      Rosenbrock problem;
+      Variable& x = problem.variables[0];
+      x.start = x.lower = x.upper = 0.5;
+      for (int i = 0; i < roundings; ++i) x.upper = std::nextafter(x.upper, 1.0);
+      x.scale = x.upper - x.lower;
+      const Solution solution = solver.solve(problem);
+      check_converged(solution, solver);
+      check_point(solution, solver, {0.5, 0.25});
+    }
   }
 }
 
