@@ -36,9 +36,9 @@ bool is_at_limit(const Flow<N, H>& flow, Eigen::Index j, const Instant<N, H>& at
   return std::abs(flow.stuck_force(at, mode, j).value) >= flow.equations().static_limit[j] * (1.0 - kRest);
 }
 
-// Of contacts that let go those at whose guards the acceleration jumps, because forces fall from static limits:
-// `own`, whose event it is, and others that are at their limits at the same instant. The force of `own` itself
-// may stay: what it releases may make others fall.
+// Of contacts that let go those at whose guards the acceleration jumps, because forces fall from static
+// limits: `own`, whose event it is, and others that are at their limits at the same instant. The force of
+// `own` itself may stay: what it releases may make others fall.
 template <int N, int H>
 ContactMask falling(const Flow<N, H>& flow, ContactMask own, const Instant<N, H>& before,
                     const Mode<N, H>& mode_before, const Mode<N, H>& mode) {

@@ -67,8 +67,7 @@ class Problems {
     DesignTuning tuning(leap.task, limits, effort, stop_asked_);
     Stages stages = tuning.from(begin, leap.x);
     // 4. Where the start has no response, nor a design towards the middle of the box, the map's low places.
-    const bool has_none =
-        stages.best.outcome == Outcome::unbounded || stages.best.outcome == Outcome::failed;
+    const bool has_none = stages.best.outcome == Outcome::unbounded || stages.best.outcome == Outcome::failed;
     if (has_none && !stages.best.has_step && task_.start == Start::given && may_be_mapped(task_)) {
       begin = starts_of_map(constants, {}, begin.designs.front(), seen);
       stages = tuning.from(begin, leap.x);
