@@ -10,6 +10,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr const char* kJumpsToRest = "a contact comes to rest just when the velocity of its support jumps";
 constexpr const char* kLetsGo = "a contact lets go of its static limit just between two passages";
 
 }  // namespace
@@ -100,8 +101,9 @@ void MotionSensitivity::differentiate() {
   if (!begun_) {
     begin(steps.front());
   } else {
-    why_none_ = cross_border(steps.front());
+    why_none_ = jumps_ ? cross_jump(steps.front()) : cross_border(steps.front());
   }
+  jumps_ = false;
   const std::vector<periodic::Event>& changes = passage_.changes;
   if (*why_none_ == '\0') why_none_ = periodic::why_no_passage_derivative<kAny, kAny>(flow_, changes);
   if (*why_none_ != '\0') return;
@@ -137,6 +139,12 @@ const char* MotionSensitivity::cross_border(const Step& first) {
   const double slope = ending_.slopes[static_cast<std::size_t>(contact)];
   for (Direction& d : directions_) d.sensitivity.arrive(contact, slope, ending_.at, first.left, d.delta);
   return "";
+}
+
+// The state goes on, and its derivative with it, whoever slides from there on: the time of the jump is fixed.
+const char* MotionSensitivity::cross_jump(const Step& first) const {
+  const periodic::Mode<kAny, kAny>&before = ending_.mode, &after = flow_.mode(first.mode);
+  return (after.stuck & ~before.stuck & flow_.equations().holding) == 0 ? "" : kJumpsToRest;
 }
 
 // A bend that reaches its place just at the end of a passage.
