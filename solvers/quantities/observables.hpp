@@ -25,7 +25,6 @@ class Observables {
         request_(values_of(quantities, assembly)) {}
 
   bool needs_stability() const { return request_.needs.stability; }
-  bool asks_energy_balance() const { return request_.needs.input; }
 
   // Frequencies and damping of the linear modes, when the matrices have changed.
   void set_system(const mechanics::LinearSystem& system) {

@@ -20,6 +20,7 @@ class EnergyAccount {
   using State = typename Flow::S::State;
   using Mode = periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>;
   using Expansion = periodic::Expansion<Eigen::Dynamic, Eigen::Dynamic>;
+  using Instant = periodic::Instant<Eigen::Dynamic, Eigen::Dynamic>;
 
   // Both must outlive the account.
   EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow);
@@ -37,6 +38,10 @@ class EnergyAccount {
 
   // The first `length` of a step in this mode.
   void follow(const Mode& mode, const Expansion& step, double length);
+  // Whether a whole step in this mode needs no expansion: the mode has met so many that its integrals are
+  // tabulated. It then follows from its start.
+  bool is_tabulated(const Mode& mode);
+  void follow(const Mode& mode, const Instant& start);
   // What each element, and last the structure, will have dissipated at the end of that part of the step [J].
   std::vector<double> dissipated_within(const Mode& mode, const Expansion& step, double length);
 
@@ -46,7 +51,7 @@ class EnergyAccount {
  private:
   using Form = periodic::LinearForm<Eigen::Dynamic, Eigen::Dynamic>;
 
-  // A power, of the forms x, and y where there is one, in the rows of its index.
+  // A power, of the form x, and y where there is one.
   enum class Power {
     square,   // coefficient x^2
     sliding,  // coefficient |x|, while its contact slides
@@ -66,12 +71,36 @@ class EnergyAccount {
     double input = 0.0, input_size = 0.0;  // integrals of the excitation's power and of its size [J]
   };
 
-  void prepare(const Mode& mode);
+  // A form by its factors that are not zero, of state and oscillators one after the other.
+  struct Factor {
+    Eigen::Index column = 0;
+    double value = 0.0;
+  };
+  // What one mode takes: of each loss its form or two, then force and velocity of each drive.
+  struct Account {
+    periodic::ContactMask stuck = 0, positive = 0, beyond = 0;
+    std::vector<Loss> losses;
+    std::vector<std::vector<Factor>> forms;
+    std::vector<Eigen::Index> columns;  // that some form reads
+    int whole_steps = 0;                // so far
+    // The forms at the nodes of a whole step, kNodes rows each, from its start: of_z z + of_u u + constant.
+    // Empty: not tabulated.
+    Eigen::MatrixXd of_z, of_u;
+    Eigen::VectorXd constant;
+
+    void add(const Form& form);
+  };
+
+  Account& account_of(const Mode& mode);
   double energy_of_bends(const State& z, const typename Flow::S::Oscillators& u) const;
-  std::vector<Form> loss_forms(const Mode& mode);
-  void add_bends(const Mode& mode, std::vector<Form>& forms);
-  std::vector<Form> drive_forms(const Mode& mode) const;
-  void integrate(const Mode& mode, const Expansion& step, double length, Energies& energies) const;
+  void list_losses(Account& account) const;
+  void add_bends(const Mode& mode, Account& account) const;
+  void add_drives(const Mode& mode, Account& account) const;
+  void find_columns(Account& account) const;
+  void tabulate(const Mode& mode, Account& account);
+  void turn_oscillators(const Mode& mode);
+  void sample(const Account& account, const Expansion& step, double length);
+  void integrate(const Account& account, const Mode& mode, double length, Energies& energies) const;
 
   const mechanics::Assembly& assembly_;
   const Flow& flow_;
@@ -81,11 +110,13 @@ class EnergyAccount {
   mechanics::LinearSystem system_;
   double forcing_ = 0.0;  // largest energy norm of the static response so far [sqrt(J)]
 
-  // The current mode: a row of z and u for each loss, then force and velocity of each drive.
-  bool prepared_ = false;
-  periodic::ContactMask stuck_ = 0, positive_ = 0, beyond_ = 0;
-  std::vector<Loss> losses_;
-  Eigen::MatrixXd of_z_, of_u_;
+  Eigen::MatrixXd rates_;  // of the structure's damping
+  std::vector<Account> accounts_;
+  std::size_t current_ = 0;  // of them
+  Eigen::MatrixXd
+      turn_;  // the oscillators at the nodes of a whole step, kNodes rows each, by those at its start
+  std::vector<double> at_columns_;  // workspace: each column at the nodes of a step
+  Eigen::VectorXd at_nodes_;        // each form at the nodes of a step
 
   double initial_ = 0.0;  // [J]
   Energies total_;

@@ -76,8 +76,9 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   account_.put_in(energy_now() - energy_before);
 }
 
-void Trajectory::set_recorded(const Eigen::VectorXd& numbers, double phase) {
+void Trajectory::set_recorded(const Eigen::VectorXd& numbers, double phase, bool jumps) {
   flow_.set_recorded(numbers, phase);
+  if (jumps) goes_on_ = false;
   phase_ = phase;
 }
 
@@ -164,10 +165,18 @@ void Trajectory::follow(Step& step) {
   }
   if (kept_.extrema) follow_extrema(step, at);
   keep_samples(step, at);
-  if (kept_.energies) account_.follow(mode, steps_.expand(step), step.length);
+  if (kept_.energies) follow_energies(step);
   for (Index j = 0; kept_.rest && j < eq.contacts(); ++j) {
     if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
   }
+}
+
+void Trajectory::follow_energies(Step& step) {
+  const auto& mode = flow_.mode(step.mode);
+  if (step.length == 1.0 && account_.is_tabulated(mode))
+    account_.follow(mode, step.left);
+  else
+    account_.follow(mode, steps_.expand(step), step.length);
 }
 
 void Trajectory::follow_extrema(Step& step, double at) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
@@ -37,13 +38,14 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const Outp
   return found;
 }
 
+// With the status, whatever is listed: a number without it says nothing of whether it was found.
 std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   std::vector<periodic::Quantity> result;
   for (const OutputChoice::Name& name : study.map()->output.names) {
     for (const periodic::Quantity& quantity : quantities_called(study, name))
       if (std::find(result.begin(), result.end(), quantity) == result.end()) result.push_back(quantity);
   }
-  return result;
+  return with_status(std::move(result));
 }
 
 // A name in the record chosen by the study, and its position.
@@ -143,6 +145,12 @@ std::vector<periodic::Quantity> output_quantities(const Study& study) {
       break;
   }
   return periodic::standard_quantities(study.network);
+}
+
+std::vector<periodic::Quantity> with_status(std::vector<periodic::Quantity> quantities) {
+  const periodic::Quantity status{.measure = periodic::Measure::status};
+  if (std::ranges::find(quantities, status) == quantities.end()) quantities.push_back(status);
+  return quantities;
 }
 
 std::string headline_of(const Study& study) {
