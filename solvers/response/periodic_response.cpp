@@ -27,9 +27,8 @@ std::unique_ptr<ResponseSolver> make_divided_solver(const mechanics::Network& ne
 
 }  // namespace
 
-PeriodicResponse::PeriodicResponse(const mechanics::Network& network,
-                                   const std::vector<Quantity>& quantities, Path path,
-                                   const OrbitsWanted& wanted)
+PeriodicResponse::PeriodicResponse(const mechanics::Network& network, const std::vector<Quantity>& quantities,
+                                   Path path, const OrbitsWanted& wanted)
     : solver_((common_divisor(network) > 1 ? make_divided_solver : make_solver)(network, quantities, path,
                                                                                 wanted)) {}
 PeriodicResponse::~PeriodicResponse() = default;
@@ -64,6 +63,9 @@ std::vector<KnownOrbit> PeriodicResponse::known() const {
 }
 void PeriodicResponse::tell(int which) {
   solver_->tell(which);
+}
+std::vector<std::complex<double>> PeriodicResponse::multipliers() {
+  return solver_->multipliers();
 }
 void PeriodicResponse::quantities(std::span<double> out) {
   solver_->quantities(out);
