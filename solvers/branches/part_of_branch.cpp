@@ -9,6 +9,21 @@ std::optional<BranchPlace> PartOfBranch::place(double s, const BranchPlace& a, c
   return correct(map_, a.y + part * (b.y - a.y), from_.tangent, part < 0.5 ? a.tangent : b.tangent);
 }
 
+namespace {
+
+// The place at s between a and b; where Newton's method fails there, as near a kink, another between them.
+std::optional<BranchPlace> place_near(const PartOfBranch& part, double s, const BranchPlace& a,
+                                      const BranchPlace& b) {
+  if (const auto place = part.place(s, a, b)) return place;
+  const double sa = part.at(a), length = part.at(b) - sa;
+  for (const double each : {0.5, 0.25, 0.75, 0.1, 0.9}) {
+    if (const auto place = part.place(sa + each * length, a, b)) return place;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 // By regula falsi with halved ends (Illinois), each third step by halving the bracket.
 BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
   constexpr int kMostSteps = 100;
@@ -18,7 +33,7 @@ BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
   BranchPlace best = std::abs(fa) < std::abs(fb) ? a : b;
   for (int i = 0; i < kMostSteps && part.at(b) - part.at(a) > kNoLength; ++i) {
     const double sa = part.at(a), sb = part.at(b);
-    const auto place = part.place(i % 3 == 2 ? 0.5 * (sa + sb) : (sa * fb - sb * fa) / (fb - fa), a, b);
+    const auto place = place_near(part, i % 3 == 2 ? 0.5 * (sa + sb) : (sa * fb - sb * fa) / (fb - fa), a, b);
     if (!place) break;
     const double f = function(*place);
     if (std::abs(f) <= std::abs(function(best))) best = *place;
@@ -29,6 +44,9 @@ BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
       a = *place, fa = f, fb *= 0.5;
     }
   }
+  // Of a jump no place has a small value: it lies within the bracket, whatever is smallest elsewhere.
+  if (std::abs(function(best)) > BranchRoot::kJump)
+    best = std::abs(function(a)) < std::abs(function(b)) ? a : b;
   return {best, function(best), part.at(b) - part.at(a)};
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <complex>
 #include <memory>
 
+#include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/exact/coexistence.hpp"
 #include "solvers/exact/nonstop_row.hpp"
 #include "solvers/exact/orbit_search.hpp"
@@ -74,6 +77,7 @@ class SizedSolver final : public ResponseSolver {
   std::vector<KnownOrbit> known() const override { return known_orbits(before_); }
   void tell(int which) override;
   int multiple() const override { return orbit_.multiple; }
+  std::vector<std::complex<double>> multipliers() override;
 
   void quantities(std::span<double> out) override {
     if (has_response() || tells_motion_)
@@ -175,6 +179,19 @@ void SizedSolver<N, H>::tell(int which) {
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   tells_motion_ = orbit_.status == Status::not_periodic && orbit_.passage.failure == nullptr;
   if (orbit_.is_found()) weigh();
+}
+
+// Where an event only just happens they do not exist.
+template <int N, int H>
+std::vector<std::complex<double>> SizedSolver<N, H>::multipliers() {
+  if (!has_response()) return {};
+  if (orbit_.passage.margin < kGrazing && orbit_.passage.events > 0) return {};
+  follow_tangent(flow_, orbit_);
+  Eigen::VectorXcd values =
+      algebra::eigenvalues(moving_part(flow_, orbit_.passage.tangent, orbit_.stuck_throughout));
+  if (orbit_.half_period) values = values.array().square();
+  std::ranges::sort(values, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  return {values.begin(), values.end()};
 }
 
 // Work in = energy lost holds for every periodic orbit, whatever is asked of it. One that breaks it is

@@ -41,6 +41,7 @@ void Observables::measure(const Orbit& orbit, const mechanics::LinearSystem& sys
   measured_.residual = orbit.residual;
   measured_.multiple = orbit.multiple;
   measured_.coexisting = orbit.coexisting;
+  measured_.unsettled = orbit.unsettled;
   if (request_.needs.stability) measured_.floquet_radius = orbit.floquet_radius();
   measured_.newton_iterations = orbit.newton_iterations;
   measured_.static_norm = equation_.static_norm();

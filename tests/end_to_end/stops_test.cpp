@@ -447,6 +447,21 @@ TEST_CASE("where no multiple that is tried has a stable orbit, the point is not 
   CHECK(std::isnan(map["main_peak"][1]));
 }
 
+// Between its folds the machine has two stable responses; the small one never touches the stops and is
+// linear: x = Re e^(i r tau)/(1 - r^2 + 0.1 i r), multipliers exp(-0.05 T) e^(+-i w T).
+TEST_CASE("point --responses lists every stable response with its state, peaks and multipliers") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", machine_on_stops("starts = 8\n", 3));
+  const auto outcome = runs::frahm({"point", study, "--at", "r=1.6", "--responses"});
+  CHECK(outcome.code == 0);
+  CHECK_THAT(outcome.out, Catch::Contains("Stable responses that were found: 2"));
+  CHECK_THAT(outcome.out, Catch::Contains("shown above"));
+  const auto json = runs::frahm({"point", study, "--at", "r=1.6", "--responses", "--json"});
+  const Complex x = 1.0 / Complex(1.0 - 1.6 * 1.6, 0.16);
+  CHECK_THAT(json.out, Catch::Contains(fmt::format("{:.9f}", std::abs(x)).substr(0, 10)));
+  CHECK_THAT(json.out, Catch::Contains(fmt::format("{:.9f}", x.real()).substr(0, 10)));
+}
+
 // It loses 2 F/k of amplitude from each turning point to the next, and stays at the first within F_s/k.
 TEST_CASE("a free motion stays where static friction first holds it") {
   const auto outcome_of = [](const std::string& static_force) {
