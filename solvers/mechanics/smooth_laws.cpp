@@ -76,6 +76,17 @@ void check_smooth_law(const Element& element, const SmoothValue& value) {
   }
 }
 
+double friction_at_high_speed(const Element& element, const SmoothValue& value, double F) {
+  switch (element.law) {
+    case FrictionLaw::exact:
+    case FrictionLaw::arctan:
+      return F;
+    case FrictionLaw::stribeck:
+      return value.curve.back().force;
+  }
+  return F;
+}
+
 bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values) {
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const SmoothValue& value = smooth_value(values, e);

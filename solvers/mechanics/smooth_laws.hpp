@@ -17,6 +17,9 @@ const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element
 // negative.
 void check_smooth_law(const Element& element, const SmoothValue& value);
 
+// The friction at high speed of an element whose value is F [N]: F, or the end of its curve.
+double friction_at_high_speed(const Element& element, const SmoothValue& value, double F);
+
 // Whether two motions can only come nearer to each other by these laws: no spring has a cubic part, and no
 // curve falls.
 bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values);

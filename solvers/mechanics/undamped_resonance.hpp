@@ -13,13 +13,16 @@ struct UndampedMode {
   Eigen::VectorXd shape;
 };
 
-// All undamped modes of a system with its friction sliding. For several modes of one frequency:
-// a basis of their undamped combinations.
+// All undamped modes of a system with its friction sliding, at velocities beyond the points of its dampers'
+// tables. For several modes of one frequency: a basis of their undamped combinations.
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system);
 
 // Whether an undamped mode is driven at its resonance harder than friction can hold: n omega = omega_phi to
 // 1e-12 and pi |p_n| >= 4 sum_j F_j |w_j^T phi|, p_n = phi^T f_n. In a cycle of amplitude X the force puts in
-// pi |p_n| X and friction takes out 4 F X: no amplitude balances (Den Hartog 1931; one mass: F/P <= pi/4).
+// pi |p_n| X and friction takes out 4 F X at most: no amplitude balances (Den Hartog 1931; one mass: F/P <=
+// pi/4). F_j is the friction at high speed: of a curve over the speed its end, of a damper whose table ends
+// level the force there. Of monotone laws no response exists then; under others motions that are large enough
+// grow, though smaller ones may settle.
 bool is_unbounded(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes);
 
 }  // namespace frahm::periodic

@@ -69,6 +69,9 @@ class Shooting {
   Verdict go_by_map(int& maps);
   void march(int maps);
   bool creeps(double before, int maps) const;
+  bool glide();
+  typename S::StateSquare tangent_here() const;
+  double rounding() const;
   void step_to_middle();
   void start_at_rest();
   bool is_resolved(const typename S::State& z) const;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/orbits/reasons.hpp"
@@ -150,14 +151,15 @@ bool Shooting<N, H>::try_step(const typename S::State& step, double share) {
 // Where Newton's step does not serve; maps: in a row, more each time.
 template <int N, int H>
 typename Shooting<N, H>::Verdict Shooting<N, H>::go_by_map(int& maps) {
-  if (current_.relative <= options_.good_enough) return Verdict::converged;
+  if (current_.relative <= std::max(options_.good_enough, rounding())) return Verdict::converged;
   if (!flow_.equations().monotone) return Verdict::gave_up;  // the map does not lead to an orbit by itself
+  constexpr double kNear = 1e-9;                             // of the relative residual
   const double before = current_.relative;
   march(maps);
   const bool turns = current_.relative > (1.0 - options_.turns) * before;
   if (turns && maps >= options_.most_turns) {
     step_to_middle();
-  } else if (creeps(before, maps)) {
+  } else if (creeps(before, maps) && !glide() && current_.relative < kNear) {
     return Verdict::gave_up;
   }
   maps = std::min(2 * maps, options_.most_maps);
@@ -173,15 +175,59 @@ void Shooting<N, H>::march(int maps) {
   }
 }
 
-// Whether the map, near its orbit, would take more passages than the search may at the rate of these maps:
-// where contacts slip ever less they are to be held.
+// Whether the map would take more passages than the search may at the rate of these maps.
 template <int N, int H>
 bool Shooting<N, H>::creeps(double before, int maps) const {
-  constexpr double kNear = 1e-9;  // of the relative residual
-  if (maps < options_.most_maps || !(current_.relative < kNear)) return false;
+  if (maps < options_.most_maps || !(current_.relative > options_.good_enough)) return false;
   const double removed = std::log(before / current_.relative);
   const double wanted = std::log(current_.relative / options_.good_enough);
   return wanted * maps > removed * options_.most_passages;
+}
+
+// Where the response is nearly vertical over a parameter the map is all but the identity along one direction:
+// its orbit lies at the end of a long curved valley of the residual, in which Newton's steps leave the
+// ground. The motion z' = g(z) - z goes down that valley, as g expands no distance, and an implicit step of
+// it,
+//   (1 - dg/dz + e) step = g(z) - z,
+// becomes Newton's as e falls. e follows what the residual allows. False, at the least residual met, where it
+// does not come to the orbit.
+template <int N, int H>
+bool Shooting<N, H>::glide() {
+  constexpr double kMayRise = 1.5, kLargest = 1.0;  // e = 1: no step is longer than one of the map
+  constexpr int kMostSteps = 2000;
+  if (current_.passage.failure != nullptr) return false;
+  Trial<N, H> best = current_;
+  double e = 0.1;
+  for (int step = 0; step < kMostSteps && e <= kLargest; ++step) {
+    if (current_.relative <= options_.good_enough || passages_ > options_.most_passages) break;
+    typename S::StateSquare B = newton_matrix(tangent_here());
+    B.diagonal().array() += e;
+    candidate_.z = current_.z + B.partialPivLu().solve(current_.residual);
+    if (!candidate_.z.allFinite() || !is_resolved(candidate_.z)) break;
+    ++newton_iterations_;
+    apply_map(candidate_);
+    const bool serves = candidate_.passage.failure == nullptr && candidate_.norm < kMayRise * best.norm;
+    if (serves) std::swap(current_, candidate_);
+    if (serves && current_.norm < best.norm) best = current_;
+    e *= serves ? 0.5 : 4.0;
+  }
+  current_ = best;
+  return current_.relative <= options_.good_enough;
+}
+
+template <int N, int H>
+typename Sizes<N, H>::StateSquare Shooting<N, H>::tangent_here() const {
+  if (!flow_.equations().is_large()) return current_.passage.tangent;
+  typename S::StateSquare tangent;
+  flow_.tangent_along(current_.passage.path, Precision::exact, tangent);
+  return tangent;
+}
+
+// What rounding may leave of the relative residual: of all steps and events of a passage.
+template <int N, int H>
+double Shooting<N, H>::rounding() const {
+  const double operations = 16.0 + 2.0 * length_ + 16.0 * current_.passage.events;
+  return operations * std::numeric_limits<double>::epsilon();
 }
 
 // z := (z + g(z)) / 2. The map of a monotone system takes no two states further apart in energy, yet it may

@@ -7,6 +7,7 @@
 #include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/reasons.hpp"
 #include "solvers/orbits/repeatable_numbers.hpp"
+#include "solvers/smooth/equivalent_response.hpp"
 
 namespace frahm::smooth {
 
@@ -18,7 +19,8 @@ void Coexistence::find(const mechanics::LinearSystem& system, const mechanics::N
   found_unstable_ = false;
   passages_ = newton_iterations_ = 0;
   for (const Earlier& earlier : before_) find_near(earlier.z, earlier.multiple);
-  for (int start = 0; start < wanted_.starts; ++start) follow(start_state(start));
+  const Eigen::VectorXd response = sliding_response();
+  for (int start = 0; start < wanted_.starts; ++start) follow(start_state(start, response));
   before_.clear();
   for (const Found& found : stable_) before_.push_back({found.orbit.z, found.orbit.multiple});
   tell(orbit);
@@ -128,16 +130,21 @@ bool Coexistence::is_known(const Eigen::VectorXd& z, double within) const {
                              [&](const Found& found) { return std::ranges::any_of(found.returns, is_near); });
 }
 
-// The linear response, rest, and states of several times their displacements, some of them as far as the laws
-// begin to bend.
-Eigen::VectorXd Coexistence::start_state(int index) const {
+// The response with dampers in place of the friction, where that slides; at rest where there is none.
+Eigen::VectorXd Coexistence::sliding_response() const {
+  auto found = equivalent_start(equation_, Equivalents::from_sliding);
+  if (!found) found = equivalent_start(equation_, Equivalents::from_rest);
+  return found.value_or(Eigen::VectorXd::Zero(equation_.size()));
+}
+
+// That response, rest, and states of several times its displacements, some of them as far as the laws begin
+// to bend.
+Eigen::VectorXd Coexistence::start_state(int index, const Eigen::VectorXd& response) const {
   constexpr double kReach[] = {1.5, 4.0, 8.0}, kBeyondBend = 1.5;
+  if (index == 0) return response;
   const Eigen::Index n = equation_.masses();
-  Eigen::VectorXd z = equation_.linear_response(0.0);
-  if (!z.allFinite()) z.setZero();
-  if (index == 0) return z;
-  const double size = std::max(z.head(n).cwiseAbs().maxCoeff(), equation_.static_displacement());
-  z.setZero();
+  const double size = std::max(response.head(n).cwiseAbs().maxCoeff(), equation_.static_displacement());
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(equation_.size());
   if (index == 1) return z;
   const int kind = index % 3;
   double reach = size * kReach[kind];

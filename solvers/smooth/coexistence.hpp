@@ -44,7 +44,8 @@ class Coexistence {
   Eigen::VectorXd scale_of(const Eigen::VectorXd& z) const;
   double peak_of(const Orbit& orbit) const;
   bool is_known(const Eigen::VectorXd& z, double within) const;
-  Eigen::VectorXd start_state(int index) const;
+  Eigen::VectorXd sliding_response() const;
+  Eigen::VectorXd start_state(int index, const Eigen::VectorXd& response) const;
   void tell(Orbit& orbit);
 
   Equation& equation_;

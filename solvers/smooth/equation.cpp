@@ -146,20 +146,76 @@ void Equation::look(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Instan
                       (W_.row(j).dot(instant.dz) + support_.row(j).dot(instant.du));
 }
 
+SteadyState Equation::linear_response() const {
+  return steady_state(A_, B_);
+}
+
+// A + sum_j g_j c_j w_j^T,  B + sum_j g_j (c_j r_j + the constant force of the term)
+SteadyState Equation::linear_response(const StraightTerms& terms) const {
+  const Eigen::MatrixXd damped = G_ * terms.slope.asDiagonal();
+  Eigen::MatrixXd B = B_ + damped * support_;
+  B.col(0) += G_ * terms.force;
+  return steady_state(A_ + damped * W_, B);
+}
+
 // Of each harmonic (i Omega - A) Z = b, and A Z = -b of the constant.
-Eigen::VectorXd Equation::linear_response(double t) const {
-  Eigen::VectorXd z = algebra::solve(A_, -B_.col(0));
+SteadyState Equation::steady_state(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) const {
+  SteadyState state;
+  state.mean = algebra::solve(A, Eigen::VectorXd(-B.col(0)));
+  state.harmonics.resize(size_, static_cast<Eigen::Index>(orders_.size()));
   for (std::size_t k = 0; k < orders_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    const double rate = orders_[k] * omega_;
-    Eigen::MatrixXcd resolvent = -A_.cast<std::complex<double>>();
-    resolvent.diagonal().array() += std::complex<double>(0.0, rate);
+    Eigen::MatrixXcd resolvent = -A.cast<std::complex<double>>();
+    resolvent.diagonal().array() += std::complex<double>(0.0, orders_[k] * omega_);
     Eigen::VectorXcd b(size_);
-    b.real() = B_.col(1 + 2 * i);
-    b.imag() = -B_.col(2 + 2 * i);
-    z += (algebra::solve(resolvent, b) * std::polar(1.0, rate * t)).real();
+    b.real() = B.col(1 + 2 * i);
+    b.imag() = -B.col(2 + 2 * i);
+    state.harmonics.col(i) = algebra::solve(resolvent, b);
   }
+  return state;
+}
+
+Eigen::VectorXd Equation::at(double t, const SteadyState& state) const {
+  Eigen::VectorXd z = state.mean;
+  for (std::size_t k = 0; k < orders_.size(); ++k)
+    z +=
+        (state.harmonics.col(static_cast<Eigen::Index>(k)) * std::polar(1.0, orders_[k] * omega_ * t)).real();
   return z;
+}
+
+StraightTerms Equation::at_rest() const {
+  return equivalent({Eigen::VectorXd::Zero(size_),
+                     Eigen::MatrixXcd::Zero(size_, static_cast<Eigen::Index>(orders_.size()))});
+}
+
+//   c = <phi (x - <x>)>/<(x - <x>)^2>,  the mean force <phi> - c <x>;  the tangent where nothing moves
+StraightTerms Equation::equivalent(const SteadyState& state) const {
+  StraightTerms straight{Eigen::VectorXd::Zero(terms()), Eigen::VectorXd::Zero(terms())};
+  const int samples = 32 * orders_.back();  // of the period; the fastest order has 32 of its own
+  const Eigen::VectorXd mean = W_ * state.mean + support_.col(0);
+  Eigen::MatrixXcd harmonics = W_ * state.harmonics;
+  for (Eigen::Index k = 0; k < harmonics.cols(); ++k) {
+    harmonics.col(k).real() += support_.col(1 + 2 * k);
+    harmonics.col(k).imag() -= support_.col(2 + 2 * k);
+  }
+  for (Eigen::Index j = 0; j < terms(); ++j) {
+    if (!rubs(j)) continue;
+    const SmoothForce& law = forces_[static_cast<std::size_t>(j)];
+    double force = 0.0, power = 0.0, square = 0.0;
+    for (int sample = 0; sample < samples; ++sample) {
+      const double phase = 2.0 * std::numbers::pi * sample / samples;
+      double moving = 0.0;
+      for (Eigen::Index k = 0; k < harmonics.cols(); ++k)
+        moving += (harmonics(j, k) * std::polar(1.0, orders_[static_cast<std::size_t>(k)] * phase)).real();
+      const double at = law.at(mean[j] + moving).force;
+      force += at / samples;
+      power += at * moving / samples;
+      square += moving * moving / samples;
+    }
+    straight.slope[j] = square > 0.0 ? power / square : law.at(mean[j]).slope;
+    straight.force[j] = force - straight.slope[j] * mean[j];
+  }
+  return straight;
 }
 
 double Equation::energy_norm(const Eigen::VectorXd& z) const {

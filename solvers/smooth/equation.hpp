@@ -16,6 +16,19 @@ struct Instant {
   Eigen::VectorXd bent, rate;  // phi_j [N] and dphi_j/dt [N/s] of each term that is not linear
 };
 
+// Each term for a straight line, phi_j = force_j + slope_j x_j [N].
+struct StraightTerms {
+  Eigen::VectorXd force, slope;
+};
+
+// A steady state mean + Re sum_k harmonics_k e^{i order_k omega t}.
+struct SteadyState {
+  Eigen::VectorXd mean;        // size N
+  Eigen::MatrixXcd harmonics;  // N x orders
+
+  bool is_finite() const { return mean.allFinite() && harmonics.allFinite(); }
+};
+
 // Equation of motion of a network with smooth laws, as a first-order system in SI units:
 //
 //   z' = A z + B u(t) + sum_j g_j phi_j(x_j),   x_j = w_j^T z + r_j u(t),   g_j = (0, -M^-1 w_j, 0)
@@ -53,8 +66,15 @@ class Equation {
   const Eigen::VectorXd& arguments(double t, const Eigen::Ref<const Eigen::VectorXd>& z);
   const Eigen::VectorXd& limits() const { return limit_; }
 
-  // Steady state of z' = A z + B u(t), the linear response, at time t. Not finite where there is none.
-  Eigen::VectorXd linear_response(double t) const;
+  // The steady state of z' = A z + B u(t), and that with straight terms. Not finite where there is none.
+  SteadyState linear_response() const;
+  SteadyState linear_response(const StraightTerms& terms) const;
+  Eigen::VectorXd at(double t, const SteadyState& state) const;
+
+  // The tangents of friction at rest, relative to the mean velocity of supports; of other terms nothing.
+  StraightTerms at_rest() const;
+  // Of friction in this motion: its mean, and the damper that takes as much energy of what moves about it.
+  StraightTerms equivalent(const SteadyState& state) const;
 
   // The energy norm, sqrt((v^T M v + q^T K q + sum s^2/k) / 2) [sqrt(J)]; of a matrix that maps states, no
   // less than the largest factor by which it stretches that norm (its Frobenius norm); and the norm of the
@@ -88,6 +108,7 @@ class Equation {
   void set_linear_part(const mechanics::LinearSystem& system);
   void set_terms(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values);
   void oscillate(double t);
+  SteadyState steady_state(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) const;
   Eigen::MatrixXd rows_of(const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonics) const;
   Eigen::MatrixXd differentiated(const Eigen::MatrixXd& rows) const;
 

@@ -12,7 +12,9 @@
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/phase.hpp"
+#include "solvers/orbits/reasons.hpp"
 #include "solvers/smooth/coexistence.hpp"
+#include "solvers/smooth/equivalent_response.hpp"
 #include "solvers/smooth/observables.hpp"
 #include "solvers/smooth/shooting.hpp"
 
@@ -125,7 +127,11 @@ class SmoothSolver final : public periodic::ResponseSolver {
   void search();
   void search_one();
   bool guess_from_exact_law();
-  void guess_linear_response();
+  void guess_equivalent_response();
+  bool closes_from_guess();
+  void march();
+  bool follow(int periods, Eigen::VectorXd& z);
+  void scale_around(const Eigen::VectorXd& z);
   void state_at(double phase, Eigen::VectorXd& z) const;
 
   mechanics::Assembly assembly_;
@@ -148,11 +154,9 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
   orbit_.newton_iterations = orbit_.passages = 0;
   orbit_.half_period = system_.odd_response;
   orbit_.multiple = orbit_.coexisting = 1;
-  // Friction that is smooth dissipates less than its limit; a spring that hardens may hold what no friction
-  // does.
   if (system_.monotone && periodic::is_unbounded(system_, undamped_modes_)) {
     orbit_.status = Status::unbounded;
-    orbit_.reason = "an undamped mode is driven at its resonance, and no friction holds it";
+    orbit_.reason = periodic::kUnbounded;
   } else {
     try {
       search();
@@ -181,12 +185,58 @@ void SmoothSolver::search() {
 }
 
 void SmoothSolver::search_one() {
-  if (guess_from_exact_law()) {
-    shooting_.find(scale_, orbit_);
-    if (orbit_.status == Status::ok) return;
-  }
-  guess_linear_response();
+  if (guess_from_exact_law() && closes_from_guess()) return;
+  guess_equivalent_response();
+  if (!closes_from_guess()) march();
+}
+
+// Whether an orbit was found, though the integrator may be too coarse for it.
+bool SmoothSolver::closes_from_guess() {
   shooting_.find(scale_, orbit_);
+  return orbit_.status == Status::ok || orbit_.residual <= ShootingOptions{}.good_enough;
+}
+
+// From rest the motion of a monotone system comes to its orbit, wherever there is one; Newton's method takes
+// over as soon as it is near.
+void SmoothSolver::march() {
+  constexpr int kFirst = 8, kLonger = 3, kMost = 17496;  // periods
+  Shooting closing(equation_, integrator_, {.most_passages = 12, .applies_map = false});
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(equation_.size());
+  orbit_.section = 0.0;
+  int periods = 0, newton_iterations = orbit_.newton_iterations, passages = orbit_.passages;
+  for (int until = kFirst; until <= kMost && follow(until - periods, z); until *= kLonger) {
+    passages += until - periods;
+    periods = until;
+    orbit_.z = z;
+    closing.find(scale_, orbit_);
+    newton_iterations += orbit_.newton_iterations;
+    passages += orbit_.passages;
+    if (orbit_.residual <= ShootingOptions{}.good_enough) break;
+  }
+  orbit_.newton_iterations = newton_iterations;
+  orbit_.passages = passages;
+  if (integrator_.work().is_over()) {
+    orbit_.reason = periodic::kSearchIsLong;
+  } else if (!(orbit_.residual <= ShootingOptions{}.good_enough)) {
+    orbit_.reason = "the motion from rest has not settled after " + std::to_string(periods) +
+                    " periods; its last passage: " + orbit_.reason;
+  }
+}
+
+// Moves z on from phase 0 over so many periods. False where it does not get there.
+bool SmoothSolver::follow(int periods, Eigen::VectorXd& z) {
+  constexpr int kAtOnce = 8;
+  for (int left = periods; left > 0; left -= kAtOnce) {
+    scale_around(z);
+    if (!integrator_.follow(z, 0.0, std::min(left, kAtOnce) * equation_.period(), scale_)) return false;
+  }
+  scale_around(z);
+  return true;
+}
+
+void SmoothSolver::scale_around(const Eigen::VectorXd& z) {
+  const Eigen::Index n = equation_.masses();
+  scale_ = equation_.scale(z.head(n).cwiseAbs().maxCoeff(), z.segment(n, n).cwiseAbs().maxCoeff());
 }
 
 // The exact orbit at the instant at which all contacts slide fastest, each relative to its own maximum: there
@@ -229,14 +279,11 @@ bool SmoothSolver::guess_from_exact_law() {
   return true;
 }
 
-void SmoothSolver::guess_linear_response() {
+void SmoothSolver::guess_equivalent_response() {
   orbit_.section = 0.0;
-  orbit_.z = equation_.linear_response(0.0);
-  const double limit = 1e6 * equation_.static_norm();
-  if (!orbit_.z.allFinite() || equation_.energy_norm(orbit_.z) > limit) orbit_.z.setZero();
-  const Eigen::Index n = equation_.masses();
-  scale_ =
-      equation_.scale(orbit_.z.head(n).cwiseAbs().maxCoeff(), orbit_.z.segment(n, n).cwiseAbs().maxCoeff());
+  orbit_.z =
+      equivalent_start(equation_, Equivalents::from_rest).value_or(Eigen::VectorXd::Zero(equation_.size()));
+  scale_around(orbit_.z);
 }
 
 // The orbit at omega t = phase.

@@ -27,8 +27,9 @@ Network rubbing_mass() {
   return network;
 }
 
-NetworkValues rubbing_values(double r, double zeta, Curve curve) {
+NetworkValues rubbing_values(double r, double zeta, Curve curve, double P = 1.0) {
   NetworkValues values = single_mass_values(r, zeta, 0.0);
+  values.excitation[0].amplitude = P;
   values.smooth = {{}, {}, {.curve = std::move(curve)}};
   return values;
 }
@@ -73,13 +74,13 @@ TEST_CASE("A straight curve is a damper") {
 }
 
 // The classical method of Runge and Kutta with fixed steps, until the motion has settled.
-double settled_peak(double r, double zeta, const Curve& points) {
+double settled_peak(double r, double zeta, const Curve& points, double P = 1.0) {
   const smooth::FrictionCurve curve(points);
   constexpr int kSteps = 4000, kPeriods = 80;
   const double h = 2.0 * std::numbers::pi / r / kSteps;
   double x = 0.0, v = 0.0, peak = 0.0, before = 0.0;
   const auto acceleration = [&](double t, double at, double speed) {
-    return std::cos(r * t) - at - 2.0 * zeta * speed - curve.at(speed).force;
+    return P * std::cos(r * t) - at - 2.0 * zeta * speed - curve.at(speed).force;
   };
   for (int i = 0; i < kSteps * kPeriods; ++i) {
     const double t = i * h;
@@ -116,6 +117,48 @@ TEST_CASE("Under a friction that falls with the speed the peak is that of anothe
     CHECK(response["coexisting"] == 1.0);
     CHECK(response["energy_balance"] < kEnergyBalance);
     CHECK_THAT(response["x_peak"], WithinRel(settled_peak(r, 0.1, kFalling), kIntegrated));
+  }
+}
+
+// The friction takes up to 4 x 0.3/pi of a force at the resonance.
+const Curve kSaturating = {{0.0, 0.0}, {0.1, 0.3}, {1.0, 0.3}};
+
+TEST_CASE("A curve that holds a resonance without damping leaves a response, at it and beside it") {
+  Responses response(rubbing_mass());
+  for (const double r : {0.999, 0.999999, 1.0, 1.001}) {
+    INFO("r " << r);
+    const auto summary = response.solve(rubbing_values(r, 0.0, kSaturating, 0.05));
+    INFO(summary.reason);
+    REQUIRE(summary.status == Status::ok);
+    CHECK_THAT(response["x_peak"], WithinRel(settled_peak(r, 0.0, kSaturating, 0.05), kIntegrated));
+    CHECK(response["energy_balance"] < kEnergyBalance);
+  }
+}
+
+TEST_CASE(
+    "Without damping a resonance is unbounded where the end of a rising curve takes less than the force") {
+  const double most = 4.0 * 0.3 / std::numbers::pi;  // at infinite speed
+  Responses response(rubbing_mass());
+  CHECK(response.solve(rubbing_values(1.0, 0.0, kSaturating, 1.001 * most)).status == Status::unbounded);
+  CHECK(response.solve(rubbing_values(1.001, 0.0, kSaturating, 1.001 * most)).status == Status::ok);
+  // Slower than the end of its curve it takes less: 0.9 of it at a hundred times the last speed of the rise.
+  const auto held = response.solve(rubbing_values(1.0, 0.0, kSaturating, 0.9 * most));
+  INFO(held.reason);
+  CHECK(held.status == Status::ok);
+  CHECK_THAT(response["x_peak"], WithinRel(settled_peak(1.0, 0.0, kSaturating, 0.9 * most), kIntegrated));
+}
+
+TEST_CASE(
+    "Near a resonance that a rising curve damps far more than the damper every point has its response") {
+  const Curve curve = {{0.0, 0.0}, {0.1, 0.3}, {1.0, 0.4}};
+  constexpr double zeta = 0.001, P = 0.05;
+  Responses response(rubbing_mass());
+  for (const double r : {0.9, 0.95, 0.98, 0.99, 1.0, 1.01, 1.02, 1.05, 1.1}) {
+    INFO("r " << r);
+    const auto summary = response.solve(rubbing_values(r, zeta, curve, P));
+    INFO(summary.reason);
+    REQUIRE(summary.status == Status::ok);
+    CHECK_THAT(response["x_peak"], WithinRel(settled_peak(r, zeta, curve, P), kIntegrated));
   }
 }
 
