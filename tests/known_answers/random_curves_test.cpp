@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <boost/numeric/odeint.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -14,7 +13,9 @@
 #include "tests/known_answers/responses.hpp"
 
 // Chains of one to three masses on curves of friction that rise or fall, with and without dampers, at and
-// beside their resonances, against a march from rest by Runge-Kutta-Fehlberg 7(8).
+// beside their resonances, against a march from rest by the classical method of Runge and Kutta. Its steps
+// are the same in every period: steps chosen by an error estimate miss bends of a curve at times, and the
+// march never settles.
 namespace frahm::periodic::random_curves_test {
 namespace {
 
@@ -57,25 +58,25 @@ Drawn draw(unsigned trial) {
   drawn.damped = pick(2) == 0;
   if (drawn.damped)
     for (int i = 0; i < masses; ++i)
-      add("c", ElementType::damper, i - 1, i, power(-2.5, -1.0), FrictionLaw::exact);
+      add("c", ElementType::damper, i - 1, i, power(-1.5, -0.5), FrictionLaw::exact);
   const double P = power(-1.0, 0.5);
   network.excitations.push_back({ExcitationKind::force, static_cast<std::size_t>(pick(masses)), 1});
   values.excitation.push_back({P, uniform(0.0, 6.0)});
-  const int curves = 1 + pick(2);
+  const int curves = std::max(masses, 1 + pick(2));  // one at each mass
   drawn.rises = pick(2) == 0;
   for (int c = 0; c < curves; ++c) {
-    const int at = pick(masses);
+    const int at = c % masses;
     add("f", ElementType::coulomb, pick(2) == 0 ? -1 : at - 1, at, 0.0, FrictionLaw::stribeck);
     std::vector<CurvePoint>& curve = values.smooth.back().curve;
     curve.push_back({});
     std::vector<double> forces;
     const int points = 2 + pick(3);
-    for (int i = 0; i < points; ++i) forces.push_back(P * power(-0.7, 0.7));
+    for (int i = 0; i < points; ++i) forces.push_back(P * power(-0.4, 0.4));
     std::sort(forces.begin(), forces.end());
     if (pick(3) == 0) forces.back() = forces[forces.size() - 2];
     if (!drawn.rises) std::reverse(forces.begin() + pick(points - 1), forces.end());
     double speed = 0.0;
-    for (const double force : forces) curve.push_back({speed += P * power(-1.5, 0.3), force});
+    for (const double force : forces) curve.push_back({speed += P * power(-0.8, 0.3), force});
   }
   LinearSystem system;
   values.omega = 1.0;
@@ -103,20 +104,35 @@ class March {
     for (const SmoothValue& each : values_.smooth)
       curves_.emplace_back(each.curve.empty() ? std::vector<CurvePoint>{{0, 0}, {1, 0}} : each.curve);
     state_.assign(2 * values_.mass.size(), 0.0);
+    moved_ = state_;
+    k_.fill(state_);
   }
 
   void pass_period() {
-    namespace odeint = boost::numeric::odeint;
+    constexpr int kFewest = 2000;
+    constexpr double kLongest = 0.005;  // of the steepest curves and lightest masses drawn: h c/m < 2
     const double period = 2.0 * std::numbers::pi / values_.omega;
-    const auto stepper =
-        odeint::make_controlled(1e-12, 1e-11, odeint::runge_kutta_fehlberg78<std::vector<double>>());
-    odeint::integrate_adaptive(
-        stepper, [this](const auto& z, auto& dz, double t) { rates(z, dz, t); }, state_, 0.0, period,
-        0.01 * period);
+    const int count = std::max(kFewest, static_cast<int>(std::ceil(period / kLongest)));
+    const double h = period / count;
+    for (int i = 0; i < count; ++i) step(i * h, h);
   }
   const std::vector<double>& state() const { return state_; }
 
  private:
+  void step(double t, double h) {
+    rates(state_, k_[0], t);
+    rates(moved(0.5 * h, k_[0]), k_[1], t + 0.5 * h);
+    rates(moved(0.5 * h, k_[1]), k_[2], t + 0.5 * h);
+    rates(moved(h, k_[2]), k_[3], t + h);
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      state_[i] += h / 6.0 * (k_[0][i] + 2.0 * k_[1][i] + 2.0 * k_[2][i] + k_[3][i]);
+  }
+
+  const std::vector<double>& moved(double h, const std::vector<double>& rate) {
+    for (std::size_t i = 0; i < state_.size(); ++i) moved_[i] = state_[i] + h * rate[i];
+    return moved_;
+  }
+
   void rates(const std::vector<double>& z, std::vector<double>& dz, double t) const {
     const std::size_t n = values_.mass.size();
     std::array<double, 3> force{};  // of up to three masses
@@ -145,7 +161,8 @@ class March {
   const Network& network_;
   const NetworkValues& values_;
   std::vector<smooth::FrictionCurve> curves_;
-  std::vector<double> state_;
+  std::vector<double> state_, moved_;
+  std::array<std::vector<double>, 4> k_;
 };
 
 double size_of(const std::vector<double>& z) {
@@ -239,8 +256,8 @@ Counts compare_all(unsigned first, unsigned count, int periods) {
 
 TEST_CASE("Random curves of friction have the responses to which a march from rest settles") {
   const Counts counts = compare_all(1, 20, 600);
-  CHECK(counts.settled >= 6);
-  CHECK(counts.compared >= 5);
+  CHECK(counts.settled >= 18);
+  CHECK(counts.compared >= 16);
 }
 
 TEST_CASE("So do 300 random systems with curves that rise and fall", "[long]") {
