@@ -20,7 +20,7 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 // Relative tolerances: within kEdge of its limit a force is at it, as in search.hpp; one that has reached its
 // limit by an event is at it within kAtLimit.
 constexpr double kEdge = 4.0 * kTie, kAtLimit = 1e-9;
-constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kSumRounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double kSameSum = 1e-9;  // relative: sums that a symmetry makes equal
 constexpr double kMostTrials = 6561.0;
 
@@ -250,7 +250,7 @@ void Search::check_stuck(const Held& held, Index i, Trial& trial) const {
     if (pull > kLoopRounding * terms + kTie * rest_.G(i, i) * rest_.kinetic[i]) breaks(pull / size(i));
   }
   if (contains(rest_.held, i)) return;
-  const double tie = kEdge + kRounding * terms / (rest_.G(i, i) * rest_.limit[i]);
+  const double tie = kEdge + kSumRounding * terms / (rest_.G(i, i) * rest_.limit[i]);
   const double force = std::abs(choice.force[i]) / rest_.limit[i], room = 1.0 - force;
   if (room < -tie)
     breaks(-room);
@@ -271,7 +271,7 @@ void Search::check_sliding(Index i, Trial& trial) const {
   RestChoice& choice = trial.choice;
   const double side = contains(choice.forward, i) ? 1.0 : -1.0;
   const double pull = side * choice.acceleration[i] / size(i);
-  const double rounding = kRounding * rest_.G.row(i).cwiseAbs().dot(choice.force.cwiseAbs()) / size(i);
+  const double rounding = kSumRounding * rest_.G.row(i).cwiseAbs().dot(choice.force.cwiseAbs()) / size(i);
   const double tie = std::max(kTie, rounding);
   if (pull < -tie) {
     if (-pull <= trial.violation) return;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
+#include "solvers/transient/record.hpp"
 
 // Measured time traces. Numbers are SI.
 namespace frahm::identification {
@@ -37,6 +38,7 @@ struct TimeRecord {
   std::vector<double> time;  // [s], increasing, at least two; the motion begins at the first
   std::vector<Channel> channels;
   std::vector<MeasuredExcitation> excitation;  // of a forced record: replaces the network's own; else none
+  transient::Interpolation interpolation = transient::Interpolation::spline;  // of measured supports
 };
 
 }  // namespace frahm::identification

@@ -195,7 +195,8 @@ struct Measured {
       courses.push_back({.name = record.name,
                          .of = is_force ? transient::RecordOf::force : transient::RecordOf::displacement,
                          .time = record.time,
-                         .values = measured.values});
+                         .values = measured.values,
+                         .interpolation = record.interpolation});
       network.excitations.push_back({.kind = is_force ? mechanics::ExcitationKind::recorded_force
                                                       : mechanics::ExcitationKind::recorded_motion,
                                      .node = measured.node,
@@ -243,7 +244,7 @@ struct MeasuredMotion final : Simulation::Kind {
     motion.set_system(system, derivatives(assembly, values, directions, system));
     motion.start(model.initial, initial_of(by));
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-      motion.set_recorded(course.numbers(i), 0.0);
+      motion.set_recorded(course.numbers(i), 0.0, course.jumps_at(i));
       if (!motion.advance(times[i + 1], 0.0, kUnlimited)) break;
     }
     if (motion.failure() == nullptr) motion.finish();

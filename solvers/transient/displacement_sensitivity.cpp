@@ -96,7 +96,7 @@ bool follow(const RecordCourse& course, double end, MotionSensitivity& motion) {
   const std::vector<double>& times = course.times();
   if (!go(std::min(times.front(), end))) return false;
   for (std::size_t i = 0; i < times.size() && times[i] < end; ++i) {
-    motion.set_recorded(course.numbers(i), 0.0);
+    motion.set_recorded(course.numbers(i), 0.0, course.jumps_at(i));
     if (!go(i + 1 < times.size() ? std::min(times[i + 1], end) : end)) return false;
   }
   return true;

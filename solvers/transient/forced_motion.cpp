@@ -57,7 +57,7 @@ bool follow_records(DrivenMotion& driven, double omega, const RecordCourse& cour
   for (std::size_t i = 0; i < times.size() && times[i] < until; ++i) {
     const double phase = std::remainder(omega * times[i], kTurn);
     const double end = i + 1 < times.size() ? std::min(times[i + 1], until) : until;
-    driven.trajectory.set_recorded(course.numbers(i), phase);
+    driven.trajectory.set_recorded(course.numbers(i), phase, course.jumps_at(i));
     if (!driven.trajectory.advance(end - driven.trajectory.time(), phase)) return false;
   }
   return true;

@@ -10,6 +10,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr const char* kJumpsToRest = "a contact comes to rest just when the velocity of its support jumps";
 constexpr const char* kLetsGo = "a contact lets go of its static limit just between two passages";
 
 }  // namespace
@@ -100,8 +101,9 @@ void MotionSensitivity::differentiate() {
   if (!begun_) {
     begin(steps.front());
   } else {
-    why_none_ = cross_border(steps.front());
+    why_none_ = jumps_ ? cross_jump(steps.front()) : cross_border(steps.front());
   }
+  jumps_ = false;
   for (Direction& d : directions_) {
     if (*why_none_ != '\0') return;
     d.delta = d.sensitivity.sweep(steps, passage_.changes, d.delta);
@@ -135,6 +137,12 @@ const char* MotionSensitivity::cross_border(const Step& first) {
     if (*reason != '\0') return reason;
   }
   return "";
+}
+
+// The state goes on, and its derivative with it, whoever slides from there on: the time of the jump is fixed.
+const char* MotionSensitivity::cross_jump(const Step& first) const {
+  const periodic::Mode<kAny, kAny>&before = flow_.mode(ending_.mode), &after = flow_.mode(first.mode);
+  return (after.stuck & ~before.stuck & flow_.equations().holding) == 0 ? "" : kJumpsToRest;
 }
 
 // Whether a force falls from its static limit though it was not at it.

@@ -23,8 +23,12 @@ class MotionSensitivity {
 
   // Matrices and forcing, and their derivatives along each direction (system_derivative.hpp).
   void set_system(const mechanics::LinearSystem& system, std::span<const mechanics::LinearSystem> by);
-  // The numbers of the records now, at this phase (RecordCourse::numbers).
-  void set_recorded(const Eigen::VectorXd& numbers, double phase) { flow_.set_recorded(numbers, phase); }
+  // The numbers of the records now, at this phase (RecordCourse::numbers). jumps: the velocity of a support
+  // jumps, at a time that no parameter moves.
+  void set_recorded(const Eigen::VectorXd& numbers, double phase, bool jumps = false) {
+    flow_.set_recorded(numbers, phase);
+    jumps_ = jumps;
+  }
 
   // To be called once, after set_system. by: of each direction; an empty vector means zeros.
   void start(const InitialState& initial, std::span<const InitialState> by);
@@ -65,6 +69,7 @@ class MotionSensitivity {
   void differentiate();
   void begin(const Step& first);
   const char* cross_border(const Step& first);
+  const char* cross_jump(const Step& first) const;
   bool lets_go_inside(periodic::ContactMask released) const;
   void keep_ending(const Step& last);
   void sample(std::size_t step, double end);
@@ -77,7 +82,7 @@ class MotionSensitivity {
   State z_;
   double time_ = 0.0, passage_start_ = 0.0;  // [s]
   double steps_taken_ = 0.0;
-  bool begun_ = false;
+  bool begun_ = false, jumps_ = false;
   Ending ending_;
   const char* failure_ = nullptr;
   const char* why_none_ = "";

@@ -9,17 +9,31 @@ namespace frahm::transient {
 
 enum class RecordOf { force, displacement, velocity, acceleration };
 
+enum class Interpolation { spline, linear };
+
 // Forces, velocities and accelerations are linear from one sample to the next, and motions follow from them
 // exactly: a velocity begins at displacement 0, an acceleration at velocity 0 too. A displacement is the
 // cubic spline through its samples, whose slopes at both ends are those of the parabola through the first, or
-// last, three. Behind the end a force and an acceleration are 0; a motion whose velocity or displacement is
-// recorded must have come to rest there, or is not known.
+// last, three; or it is linear too, and its velocity jumps at the samples. Behind the end a force and an
+// acceleration are 0; a motion whose velocity or displacement is recorded must have come to rest there, or is
+// not known.
 struct Record {
   std::string name;  // of its file, or of what made it
   RecordOf of = RecordOf::force;
-  std::vector<double> time;    // [s], ascending; at least two, of a displacement three
+  std::vector<double> time;    // [s], ascending; at least two, of a spline three
   std::vector<double> values;  // [N] ([N m] on a rotation), [m] ([rad]), [m/s] or [m/s^2]; one for each time
+  Interpolation interpolation = Interpolation::spline;  // of a displacement
+
+  bool is_spline() const { return of == RecordOf::displacement && interpolation == Interpolation::spline; }
+  bool jumps() const {  // the velocity of its support does, at samples
+    return of == RecordOf::displacement && interpolation == Interpolation::linear;
+  }
 };
+
+// The least number of samples of a record of this kind.
+inline std::size_t least_samples(const Record& record) {
+  return record.is_spline() ? 3 : 2;
+}
 
 // Which component of the network's excitation a record drives; the component's amplitude multiplies it.
 struct RecordedExcitation {

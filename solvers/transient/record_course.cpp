@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/recorded_columns.hpp"
@@ -16,6 +17,9 @@ using mechanics::MechanicsError;
 
 // r, r', r'', r''' at an instant.
 using Numbers = std::array<double, mechanics::kRecordNumbers>;
+
+// Of a record's range: far beyond what lies between the samples of a smooth motion.
+constexpr double kStrays = 0.25;
 
 // Slope at t[0] of the parabola through three points.
 double end_slope(const double* t, const double* y, int towards) {
@@ -58,8 +62,7 @@ Numbers later(const Numbers& r, double s) {
 std::vector<Numbers> course_of(const Record& record) {
   const std::vector<double>&t = record.time, &y = record.values;
   std::vector<Numbers> course;
-  const std::vector<double> slopes =
-      record.of == RecordOf::displacement ? spline_slopes(t, y) : std::vector<double>();
+  const std::vector<double> slopes = record.is_spline() ? spline_slopes(t, y) : std::vector<double>();
   double displacement = 0.0, velocity = 0.0;  // of a support
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
     const double h = t[i + 1] - t[i], slope = (y[i + 1] - y[i]) / h;
@@ -68,7 +71,8 @@ std::vector<Numbers> course_of(const Record& record) {
         course.push_back({y[i], slope, 0.0, 0.0});
         break;
       case RecordOf::displacement:
-        course.push_back(cubic(y[i], y[i + 1], slopes[i], slopes[i + 1], h));
+        course.push_back(record.is_spline() ? cubic(y[i], y[i + 1], slopes[i], slopes[i + 1], h)
+                                            : Numbers{y[i], slope, 0.0, 0.0});
         break;
       case RecordOf::velocity:
         course.push_back({displacement, y[i], slope, 0.0});
@@ -98,7 +102,7 @@ std::vector<Numbers> course_of(const Record& record) {
 }
 
 void check(const Record& record) {
-  const std::size_t least = record.of == RecordOf::displacement ? 3 : 2;
+  const std::size_t least = least_samples(record);
   const std::string name = "record '" + record.name + "': ";
   if (record.time.size() < least || record.time.size() != record.values.size())
     throw MechanicsError(name + "needs at least " + std::to_string(least) +
@@ -108,6 +112,7 @@ void check(const Record& record) {
     throw MechanicsError(name + "must be finite");
   if (std::ranges::adjacent_find(record.time, std::greater_equal<>()) != record.time.end())
     throw MechanicsError(name + "its times must ascend");
+  if (const std::string why = why_no_spline(record); !why.empty()) throw MechanicsError(name + why);
 }
 
 // The record of a component.
@@ -121,6 +126,10 @@ const Record& record_of(const mechanics::Network& network, std::size_t excitatio
     throw MechanicsError("record '" + found->record->name + "': " +
                          (is_force ? "a force acts on a mass, a motion is one of a support"
                                    : "a support moves, a force acts on a mass"));
+  if (found->record->jumps()) {
+    const std::string why = why_no_jump(network, network.excitations[excitation].node);
+    if (!why.empty()) throw MechanicsError("record '" + found->record->name + "': " + why);
+  }
   return *found->record;
 }
 
@@ -138,10 +147,12 @@ RecordCourse::RecordCourse(const mechanics::Network& network, std::span<const Re
   }
   const auto count = static_cast<Eigen::Index>(each.size()) * mechanics::kRecordNumbers;
   numbers_.assign(times_.size(), Eigen::VectorXd::Zero(count));
+  jumps_.assign(times_.size(), 0);
   sizes_.setZero(count);
   for (std::size_t r = 0; r < each.size(); ++r) {
     const std::vector<double>& t = each[r]->time;
     const std::vector<Numbers> course = course_of(*each[r]);
+    find_jumps(*each[r], course);
     std::size_t now = 0;
     for (std::size_t i = 0; i < times_.size(); ++i) {
       while (now + 1 < t.size() && t[now + 1] <= times_[i]) ++now;
@@ -157,6 +168,20 @@ RecordCourse::RecordCourse(const mechanics::Network& network, std::span<const Re
 void RecordCourse::tell(mechanics::LinearSystem& system) const {
   system.recorded_size = sizes_;
   system.recorded_interval = interval_;
+}
+
+// Where a straight line has another slope than the one before it, and where a motion begins with a velocity.
+void RecordCourse::find_jumps(const Record& record, std::span<const Numbers> course) {
+  if (record.of == RecordOf::force) return;
+  double before = 0.0;  // [m/s]
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    const double velocity = course[i][1];
+    if ((i == 0 || record.jumps()) && velocity != before) {
+      const auto at = std::ranges::lower_bound(times_, record.time[i]);
+      jumps_[static_cast<std::size_t>(at - times_.begin())] = 1;
+    }
+    before = velocity;
+  }
 }
 
 // Times are rounded to some parts of 1e-16 of the last.
@@ -186,7 +211,88 @@ bool is_known_behind(const Record& record) {
   if (record.of == RecordOf::velocity) return record.values.back() == 0.0;
   if (record.of != RecordOf::displacement) return true;
   const std::size_t last = record.time.size() - 1;
+  if (record.jumps()) return record.values[last] == record.values[last - 1];
   return end_slope(&record.time[last], &record.values[last], -1) == 0.0;
+}
+
+std::vector<Reach> reaches(const Record& displacement) {
+  const std::vector<Numbers> course = course_of(displacement);
+  std::vector<Reach> all;
+  for (std::size_t i = 0; i + 1 < course.size(); ++i) {
+    const double start = displacement.time[i], h = displacement.time[i + 1] - start;
+    Reach reach{course[i][0], start, course[i][0], start};
+    const auto meet = [&](double s) {
+      const double y = later(course[i], s)[0];
+      if (y < reach.least) {
+        reach.least = y;
+        reach.least_at = start + s;
+      }
+      if (y > reach.most) {
+        reach.most = y;
+        reach.most_at = start + s;
+      }
+    };
+    meet(h);
+    // Where it turns: the roots of c + b s + a s^2, its slope.
+    const double a = 0.5 * course[i][3], b = course[i][2], c = course[i][1];
+    const double q = -0.5 * (b + std::copysign(std::sqrt(std::max(0.0, b * b - 4.0 * a * c)), b));
+    for (const double s : {q / a, c / q}) {
+      if (s > 0.0 && s < h) meet(s);
+    }
+    all.push_back(reach);
+  }
+  return all;
+}
+
+std::string why_no_spline(const Record& record) {
+  if (!record.is_spline()) return "";
+  const std::vector<double>&t = record.time, &y = record.values;
+  const auto [least, most] = std::ranges::minmax(y);
+  const std::vector<Reach> all = reaches(record);
+  std::size_t worst = 0;
+  double strays = 0.0, extreme = 0.0, when = 0.0;  // of all, the most
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto first = y.begin() + static_cast<std::ptrdiff_t>(i > 0 ? i - 1 : 0);
+    const auto end = y.begin() + static_cast<std::ptrdiff_t>(std::min(i + 3, y.size()));
+    const auto [low, high] = std::ranges::minmax(std::ranges::subrange(first, end));
+    const auto look = [&](double by, double value, double at) {
+      if (by <= strays) return;
+      strays = by;
+      worst = i;
+      extreme = value;
+      when = at;
+    };
+    look(low - all[i].least, all[i].least, all[i].least_at);
+    look(all[i].most - high, all[i].most, all[i].most_at);
+  }
+  if (strays <= kStrays * (most - least)) return "";
+  std::ostringstream text;
+  text
+      << "the cubic spline through its samples goes to " << extreme << " at " << when << " s, between sample "
+      << worst + 1 << " (" << y[worst] << " at " << t[worst] << " s) and sample " << worst + 2 << " ("
+      << y[worst + 1] << " at " << t[worst + 1]
+      << " s), and leaves the range of the four samples about it by more than a quarter of the record's "
+         "range, "
+      << least << " to " << most
+      << ": it is not what they mean; interpolation = \"linear\" draws straight lines from sample to sample, "
+         "more samples where the motion turns keep the spline near it";
+  return text.str();
+}
+
+std::string why_no_jump(const mechanics::Network& network, std::size_t support) {
+  const mechanics::Node node{mechanics::NodeKind::prescribed, support};
+  for (const mechanics::Element& element : network.elements) {
+    if (element.type != mechanics::ElementType::inerter) continue;
+    const bool hangs =
+        std::ranges::any_of(element.along, [&](const mechanics::Share& share) { return share.node == node; });
+    if (!hangs) continue;
+    return "straight lines make the velocity of \"" + network.prescribed[support] +
+           "\" jump at the samples, and the inerter \"" + element.name +
+           "\" there would need an infinite force; leave out interpolation = \"linear\", or record a "
+           "velocity "
+           "or an acceleration";
+  }
+  return "";
 }
 
 }  // namespace frahm::transient

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "solvers/transient/record_course.hpp"
+
 namespace frahm::transient {
 namespace {
 
@@ -21,6 +23,19 @@ void find_intervals(const Record& record, RecordFacts& facts) {
   std::ranges::nth_element(intervals, middle);
   facts.usual = *middle;
   facts.even = facts.longest - facts.shortest <= rounded * facts.longest;
+}
+
+// Between samples too.
+void find_peak_of_spline(const Record& record, RecordFacts& facts) {
+  const auto meet = [&](double value, double time) {
+    if (std::abs(value) <= facts.peak) return;
+    facts.peak = std::abs(value);
+    facts.peak_time = time - record.time.front();
+  };
+  for (const Reach& reach : reaches(record)) {
+    meet(reach.least, reach.least_at);
+    meet(reach.most, reach.most_at);
+  }
 }
 
 // Of straight lines from sample to sample, over an interval h:
@@ -54,6 +69,7 @@ RecordFacts facts_of(const Record& record) {
     facts.peak = std::abs(record.values[i]);
     facts.peak_time = record.time[i] - record.time.front();
   }
+  if (record.is_spline()) find_peak_of_spline(record, facts);
   integrate(record, facts);
   return facts;
 }

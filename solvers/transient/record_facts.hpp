@@ -11,7 +11,7 @@ struct RecordFacts {
   double usual = 0.0;                                   // their median [s]
   double longest_from = 0.0;                            // [s] where the longest begins
   bool even = false;                                    // they differ by rounding alone
-  double peak = 0.0, peak_time = 0.0;                   // the largest value either way
+  double peak = 0.0, peak_time = 0.0;                   // the largest value either way, of a spline its own
   double start = 0.0, end = 0.0;                        // values of the first and the last sample
   double end_velocity = 0.0;                            // [m/s] that a support's acceleration leaves it with
   double end_displacement = 0.0;                        // [m] that its acceleration or velocity does

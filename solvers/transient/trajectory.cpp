@@ -76,8 +76,9 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   account_.put_in(energy_now() - energy_before);
 }
 
-void Trajectory::set_recorded(const Eigen::VectorXd& numbers, double phase) {
+void Trajectory::set_recorded(const Eigen::VectorXd& numbers, double phase, bool jumps) {
   flow_.set_recorded(numbers, phase);
+  if (jumps) goes_on_ = false;
   phase_ = phase;
 }
 

@@ -37,8 +37,9 @@ class Trajectory {
   void set_forcing(const mechanics::LinearSystem& system, double phase);
 
   // The numbers of the records now, at this phase, from which on they are polynomials
-  // (RecordCourse::numbers).
-  void set_recorded(const Eigen::VectorXd& numbers, double phase);
+  // (RecordCourse::numbers). jumps: the velocity of a support jumps, and who sticks and slides is found anew;
+  // the masses keep their velocities.
+  void set_recorded(const Eigen::VectorXd& numbers, double phase, bool jumps = false);
 
   // The excitation's frequency now, and how fast it rises [rad/s], [rad/s^2]; the forcing has one for a
   // while.

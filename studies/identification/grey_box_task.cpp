@@ -116,6 +116,7 @@ void add_column(const Study& study, const DataColumn& column, identification::Ti
 
 identification::TimeRecord time_record(const Study& study, const RecordChoice& record) {
   identification::TimeRecord result;
+  result.interpolation = record.interpolation;
   result.name = record.name;
   result.motion = record.motion;
   for (const DataColumn& column : record.columns) {

@@ -28,6 +28,11 @@ std::string with_unit(const Study& study, double value, Quantity quantity) {
                              : fmt::format("{:.4g} {}", value, written_si_unit(quantity));
 }
 
+// What stands between two samples.
+const char* between_samples(const transient::Record& record) {
+  return record.is_spline() ? "the cubic spline" : "straight lines";
+}
+
 struct Driven {
   std::string what;  // `acceleration of "base"`
   Quantity quantity = Quantity::force;
@@ -79,8 +84,9 @@ void print_one(const Study& study, const DrivingRecord& driving, std::ostream& o
   const transient::Record& record = driving.records.front();
   const auto [what, quantity] = driven_by(study, driving, record.of);
   const RecordFacts facts = transient::facts_of(record);
-  fmt::print(out, "record     {} by {}: {} samples, {}, {}\n", what, record.name, record.time.size(),
-             interval_text(study, facts), with_unit(study, facts.duration, Quantity::time));
+  fmt::print(out, "record     {} by {}: {} samples, {}, {}; {} between them\n", what, record.name,
+             record.time.size(), interval_text(study, facts),
+             with_unit(study, facts.duration, Quantity::time), between_samples(record));
   fmt::print(out, "           peak {} at {}; {:.4g} at its start, {:.4g} at its end\n",
              with_unit(study, facts.peak, quantity), with_unit(study, facts.peak_time, Quantity::time),
              facts.start, facts.end);
@@ -125,14 +131,13 @@ void warn_of_gap(const Study& study, const DrivingRecord& driving, std::ostream&
   for (const transient::Record& record : driving.records) {
     const RecordFacts facts = transient::facts_of(record);
     if (!transient::has_gap(facts)) continue;
-    fmt::print(
-        out,
-        "warning: {} by {}: no sample from {:.6g} to {}, {:.0f} times its usual interval of {}; the {} "
-        "between stands for them\n",
-        driven_by(study, driving, record.of).what, record.name, facts.longest_from,
-        with_unit(study, facts.longest_from + facts.longest, Quantity::time), facts.longest / facts.usual,
-        with_unit(study, facts.usual, Quantity::time),
-        record.of == RecordOf::displacement ? "spline" : "straight line");
+    fmt::print(out,
+               "warning: {} by {}: no sample from {:.6g} to {}, {:.0f} times its usual interval of {}; {} "
+               "between stands for them\n",
+               driven_by(study, driving, record.of).what, record.name, facts.longest_from,
+               with_unit(study, facts.longest_from + facts.longest, Quantity::time),
+               facts.longest / facts.usual, with_unit(study, facts.usual, Quantity::time),
+               record.is_spline() ? "the cubic spline" : "a straight line");
     return;
   }
 }
@@ -147,6 +152,7 @@ double sampling_of(const transient::Record& record) {
 void warn_of_sampling(const Study& study, const DrivingRecord& driving, const periodic::LinearModes& modes,
                       std::ostream& out) {
   double longest = 0.0;
+  const bool is_spline = driving.records.front().is_spline();
   for (const transient::Record& record : driving.records) longest = std::max(longest, sampling_of(record));
   const auto period = [](double omega) { return 2.0 * std::numbers::pi / omega; };
   const auto fast = std::ranges::find_if(modes.frequency, [&](double omega) {
@@ -156,11 +162,13 @@ void warn_of_sampling(const Study& study, const DrivingRecord& driving, const pe
   const auto mode = fast - modes.frequency.begin() + 1;
   const bool is_last = mode == static_cast<std::ptrdiff_t>(modes.frequency.size());
   fmt::print(out,
-             "{}: {}: mode {}{} (period {}) {} {:.2g} samples in a period; straight lines between samples "
-             "weaken what drives it{}\n",
+             "{}: {}: mode {}{} (period {}) {} {:.2g} samples in a period; {} between samples "
+             "{} what drives it{}\n",
              mode == 1 ? "warning" : "note", driven_by(study, driving, driving.records.front().of).what, mode,
              is_last ? "" : " and those above", with_unit(study, period(*fast), Quantity::time),
-             is_last ? "has" : "have", period(*fast) / longest, mode == 1 ? ": sample the record finer" : "");
+             is_last ? "has" : "have", period(*fast) / longest,
+             is_spline ? "the cubic spline" : "straight lines", is_spline ? "distorts" : "weaken",
+             mode == 1 ? ": sample the record finer" : "");
 }
 
 }  // namespace

@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/transient/record_course.hpp"
 #include "studies/reading/column_in_si.hpp"
 
 namespace frahm::studies {
 namespace {
 
 using transient::Record, transient::RecordOf;
-
-// A straight line needs two samples, the cubic spline through displacements three.
-std::size_t least_samples(RecordOf of) {
-  return of == RecordOf::displacement ? 3 : 2;
-}
 
 // A window of displacements begins and ends at samples, which may be written with fewer digits than these.
 constexpr double at_sample = 1e-6;  // of the interval beside it
@@ -50,7 +46,7 @@ void take_g(const RecordedPlace& place, RawColumn& column, std::optional<TomlVal
 }
 
 void check_count(const TomlSection& section, const RecordFile& file, const Record& record) {
-  const std::size_t least = least_samples(record.of), count = record.time.size();
+  const std::size_t least = transient::least_samples(record), count = record.time.size();
   if (count >= least) return;
   const bool has_window = section.find("from") || section.find("to");
   throw data_error(
@@ -83,7 +79,8 @@ double value_at(const Record& record, double time) {
   return std::lerp(record.values[i - 1], record.values[i], part);
 }
 
-// The sample at an end of the window of displacements: a spline has no other end than its samples.
+// The sample at an end of the window of a spline through displacements, which has no other end than its
+// samples.
 double nearest_sample(const TomlSection& section, const RecordFile& file, const Record& record,
                       const std::string& key, double time) {
   const auto distance = [&](double sample) { return std::abs(sample - time); };
@@ -92,8 +89,8 @@ double nearest_sample(const TomlSection& section, const RecordFile& file, const 
   if (distance(*nearest) > at_sample * std::abs(*beside - *nearest))
     section.fail(
         rules::wrong_order, key,
-        "{} s is between two samples of {}; a window of displacements begins and ends at samples, here "
-        "the nearest is at {} s",
+        "{} s is between two samples of {}; a window of displacements begins and ends at samples of their "
+        "spline, here the nearest is at {} s",
         time, file.name, *nearest);
   return *nearest;
 }
@@ -106,9 +103,22 @@ double window_end(const StudyContext& context, const TomlSection& section, const
   if (time < record.time.front() || time > record.time.back())
     section.fail(rules::out_of_range, key, "{} s is outside {}, which goes from {} to {} s", time, file.name,
                  record.time.front(), record.time.back());
-  return record.of == RecordOf::displacement && record.time.size() > 1
-             ? nearest_sample(section, file, record, key, time)
-             : time;
+  return record.is_spline() && record.time.size() > 1 ? nearest_sample(section, file, record, key, time)
+                                                      : time;
+}
+
+// How a displacement goes from sample to sample; nothing else has a choice.
+transient::Interpolation interpolation_of(const TomlSection& section, const RecordedPlace& place,
+                                          const mechanics::Network& network) {
+  if (!section.find("interpolation")) return {};
+  if (place.of != RecordOf::displacement)
+    section.fail(rules::key_without_use, "interpolation",
+                 "is of displacement_of; all other records are straight lines between samples");
+  const auto interpolation = section.choice_as<transient::Interpolation>("interpolation");
+  if (interpolation == transient::Interpolation::spline) return interpolation;
+  const std::string why = transient::why_no_jump(network, find_node(network, place.node)->index);
+  if (!why.empty()) section.fail(rules::unfit_for_method, "interpolation", "{}", why);
+  return interpolation;
 }
 
 }  // namespace
@@ -121,7 +131,7 @@ Record in_window(const StudyContext& context, const TomlSection& section, const 
   if (!(from < to))
     section.fail(rules::wrong_order, section.find("to") ? "to" : "from",
                  "the window from {} s to {} s of {} is empty", from, to, file.name);
-  Record cut{record.name, record.of, {0.0}, {value_at(record, from)}};
+  Record cut{record.name, record.of, {0.0}, {value_at(record, from)}, record.interpolation};
   for (std::size_t i = 0; i < record.time.size(); ++i) {
     if (record.time[i] <= from || record.time[i] >= to) continue;
     cut.time.push_back(record.time[i] - from);
@@ -130,12 +140,15 @@ Record in_window(const StudyContext& context, const TomlSection& section, const 
   cut.time.push_back(to - from);
   cut.values.push_back(value_at(record, to));
   check_count(section, file, cut);
+  if (const std::string why = transient::why_no_spline(cut); !why.empty())
+    throw data_error(rules::unfit_for_method, section, file.position, fmt::format("{}: {}", file.name, why));
   return cut;
 }
 
 Record read_driving_record(const StudyContext& context, const TomlSection& section, const RecordFile& file,
                            const std::filesystem::path& folder, const mechanics::Network& network) {
   const RecordedPlace place = place_of(section);
+  const transient::Interpolation interpolation = interpolation_of(section, place, network);
   const std::vector<RecordForm> forms{{{{.name = "time", .quantity = Quantity::time, .increases = true},
                                         {.name = "value", .quantity = quantity_of(place, network)}},
                                        1,
@@ -157,7 +170,8 @@ Record read_driving_record(const StudyContext& context, const TomlSection& secti
                    {.name = file.name,
                     .of = place.of,
                     .time = in_si(context, named, raw, raw.columns[0], {}),
-                    .values = in_si(context, named, raw, raw.columns[1], {unit ? &*unit : nullptr})});
+                    .values = in_si(context, named, raw, raw.columns[1], {unit ? &*unit : nullptr}),
+                    .interpolation = interpolation});
 }
 
 }  // namespace frahm::studies

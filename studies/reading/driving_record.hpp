@@ -16,7 +16,8 @@ struct RecordFile {
 // The record of [[excitation.record]] from a file: its columns in SI, cut to the section's window, its time
 // counted from the window's start.  folder: of the study.
 // Throws StudyError for what is wrong with columns or units, for fewer samples than the interpolation needs,
-// and for a window that the record does not fill.
+// for a spline that strays from them or straight lines where an inerter hangs, and for a window that the
+// record does not fill.
 transient::Record read_driving_record(const StudyContext& context, const TomlSection& section,
                                       const RecordFile& file, const std::filesystem::path& folder,
                                       const mechanics::Network& network);

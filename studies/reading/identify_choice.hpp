@@ -46,6 +46,7 @@ struct RecordChoice {
   std::string name;  // an identifier, unique
   std::filesystem::path file;
   identification::MotionKind motion = identification::MotionKind::free;  // of a grey box
+  transient::Interpolation interpolation = {};    // of the displacements of supports that drive it
   std::vector<Assignment> set;                    // of a grey box: parameters of this record
   std::vector<DataColumn> columns;                // all of one length, doubtful rows left out
   std::vector<std::string> labels;                // of the rows, where the file has them; else empty

@@ -12,6 +12,7 @@ constexpr KeyGroup all_groups[] = {
     {"excitation.force", "on|node", Together::one},
     {"excitation.motion", "amplitude|velocity|acceleration", Together::one, {"profile", "harmonic"}},
     {"excitation.record", "acceleration_of|velocity_of|displacement_of|force_on", Together::one},
+    {"excitation.record", "interpolation|displacement_of", Together::not_without},
     {"axis", "from|values", Together::one, {"", "numbers"}},
     {"axis", "from|to|points", Together::all_or_none, {"", "numbers"}},
     {"axis", "values|spacing", Together::at_most_one, {"", "numbers"}},

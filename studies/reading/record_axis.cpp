@@ -47,7 +47,7 @@ namespace {
 
 // What a generated record is not asked for.
 void check_generated(const TomlSection& section, const GeneratedRecords& generated) {
-  for (const char* key : {"time", "column", "unit"}) {
+  for (const char* key : {"time", "column", "unit", "interpolation"}) {
     if (section.find(key))
       section.fail(rules::key_without_use, key, "is of files; the axis generates the records, in SI");
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solvers/transient/record_course.hpp"
 #include "studies/reading/column_in_si.hpp"
 #include "studies/reading/identify_reading.hpp"
 #include "studies/reading/record_columns.hpp"
@@ -76,6 +77,31 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
   }
 }
 
+// Of the displacements of supports that were measured and drive the motion.
+void read_interpolation(const Study& study, const TomlSection& section, RecordChoice& record) {
+  bool is_used = false;
+  record.interpolation = section.choice_as<transient::Interpolation>("interpolation");
+  for (std::size_t s = 0; s < study.network.prescribed.size(); ++s) {
+    const DataColumn* column = record.find(study.network.prescribed[s] + "_displacement");
+    if (column == nullptr || !is_excitation(study, column->role)) continue;
+    is_used = true;
+    const transient::Record driving{.name = record.name,
+                                    .of = transient::RecordOf::displacement,
+                                    .time = record.find("time")->values,
+                                    .values = column->values,
+                                    .interpolation = record.interpolation};
+    const bool counts = driving.time.size() >= transient::least_samples(driving);
+    const std::string strays = counts ? transient::why_no_spline(driving) : "";
+    if (!strays.empty())
+      throw data_error(rules::unfit_for_method, section, fmt::format("{}: {}", column->role, strays));
+    const std::string why = driving.jumps() ? transient::why_no_jump(study.network, s) : "";
+    if (!why.empty()) section.fail(rules::unfit_for_method, "interpolation", "{}", why);
+  }
+  if (section.find("interpolation") && !is_used)
+    section.fail(rules::key_without_use, "interpolation",
+                 "has no effect: no displacement of a support was measured, which would drive the motion");
+}
+
 // Of a grey box: the cause of the motion, and the columns it needs.
 void read_motion_kind(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   const Study& study = reading.study;
@@ -104,6 +130,7 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                  "a measured excitation drives the motion at all times: none of its rows can be left out as "
                  "doubtful");
   if (measured) refuse_other_excitation(reading, section, record);
+  read_interpolation(study, section, record);
   if (record.motion == MotionKind::free && study.initial().empty())
     section.fail_here(
         rules::missing_section,

@@ -34,6 +34,10 @@ inline constexpr StudyWord profiles[] = {
 
 inline constexpr StudyWord spacings[] = {{"linear", "in equal steps"}, {"log", "in equal ratios"}};
 
+inline constexpr StudyWord interpolations[] = {  // in the order of transient::Interpolation
+    {"spline", "a cubic spline through the samples, smooth"},
+    {"linear", "straight lines from sample to sample: the velocity jumps at each"}};
+
 inline constexpr StudyWord sequences[] = {  // in the order of samples::Sequence
     {"sobol", "Sobol's points, shifted at random: evenly over all parameters together"},
     {"latin_hypercube", "of each parameter one in each of as many equally likely parts, at random"},

@@ -176,9 +176,9 @@ void add_driving_records(const Study& study, CanonicalText& text) {
   for (const DrivingRecord& driving :
        study.transient() ? study.transient()->records : study.tune()->peaks->driving) {
     for (const transient::Record& record : driving.records)
-      text.line("record {} of {} on axis {} time {} values {}", driving.excitation,
+      text.line("record {} of {} on axis {} time {} values {}{}", driving.excitation,
                 static_cast<int>(record.of), driving.on_axis, digest_of(record.time),
-                digest_of(record.values));
+                digest_of(record.values), record.jumps() ? " linear" : "");
   }
 }
 
@@ -245,7 +245,8 @@ void add_records(const Study& study, CanonicalText& text) {
     if (value) text.line("{} {}", what, value->expression.canonical_text(names));
   };
   for (const RecordChoice& record : study.identify()->records) {
-    text.line("record {} motion {}", record.name, static_cast<int>(record.motion));
+    text.line("record {} motion {}{}", record.name, static_cast<int>(record.motion),
+              record.interpolation == transient::Interpolation::linear ? " linear" : "");
     for (const Assignment& at : record.set) text.line("set {} {}", names[at.parameter], at.value);
     add("added mass", record.added_mass);
     add("static displacement", record.static_displacement);

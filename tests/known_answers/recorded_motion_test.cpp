@@ -4,7 +4,9 @@
 #include <numbers>
 #include <random>
 
+#include "solvers/transient/displacement_sensitivity.hpp"
 #include "solvers/transient/forced_motion.hpp"
+#include "solvers/transient/record_course.hpp"
 #include "tests/known_answers/event_integrator.hpp"
 #include "tests/known_answers/random_network.hpp"
 
@@ -137,6 +139,142 @@ TEST_CASE("Records that are none are refused by name") {
   CHECK_THROWS_WITH(motion_of(network, kUnit, {}, 1.0, 2), Catch::Contains("has no record"));
 }
 
+// A handle that is pulled by 1 m within a tenth of a second, from its corners.
+Record pulled(Interpolation interpolation) {
+  return {.name = "pull.csv",
+          .of = RecordOf::displacement,
+          .time = {0.0, 1.0, 1.1, 10.0},
+          .values = {0.0, 0.0, 1.0, 1.0},
+          .interpolation = interpolation};
+}
+
+// x'' + c x' + k x = k t from rest: x = t - c/k + e^{-c t/2} (c/k cos w t + (c^2/(2 k) - 1)/w sin w t), and
+// its rate; 0 before t = 0.
+struct OfRamp {
+  double c = 0.0, k = 0.0;
+  double w() const { return std::sqrt(k - 0.25 * c * c); }
+  double value(double t) const {
+    const double a = c / k, b = (0.5 * c * a - 1.0) / w();
+    return t < 0.0 ? 0.0 : t - a + std::exp(-0.5 * c * t) * (a * std::cos(w() * t) + b * std::sin(w() * t));
+  }
+  double rate(double t) const {
+    const double a = c / k, b = (0.5 * c * a - 1.0) / w();
+    return t < 0.0 ? 0.0
+                   : 1.0 + std::exp(-0.5 * c * t) * ((b * w() - 0.5 * c * a) * std::cos(w() * t) -
+                                                     (a * w() + 0.5 * c * b) * std::sin(w() * t));
+  }
+};
+
+TEST_CASE("A handle that moves along straight lines pulls a mass as the closed form of its ramps says") {
+  const Node ground{}, mass{NodeKind::mass, 0}, handle{NodeKind::prescribed, 0};
+  const Record record = pulled(Interpolation::linear);
+  // The damper runs to the ground, or to the handle: its force then jumps with the handle's velocity,
+  // x'' + c x' + k x = k y + c y'.
+  for (const Node& end : {ground, handle}) {
+    Network network{
+        .masses = {"block"},
+        .prescribed = {"handle"},
+        .elements = {{"k", ElementType::spring, handle, mass}, {"c", ElementType::damper, end, mass}},
+        .excitations = {{ExcitationKind::recorded_motion, 0, 0}}};
+    network.signals.push_back({"pulled", {{handle, 1.0}}});
+    const NetworkValues values{
+        .omega = 1.0, .mass = {1.0}, .element = {4.0, 1.0}, .excitation = {{1.0, 0.0}}};
+    const ForcedMotion motion = motion_of(network, values, {{0, &record}}, 10.0, 1001);
+    INFO(motion.failure);
+    REQUIRE(motion.failure.empty());
+    CHECK(motion.energy.balance < kExact);
+    const OfRamp ramp{.c = 1.0, .k = 4.0};
+    const double by_rate = end == handle ? 0.25 : 0.0;
+    for (std::size_t i = 0; i < motion.history.time.size(); ++i) {
+      const double t = motion.history.time[i];
+      const double x = 10.0 * (ramp.value(t - 1.0) - ramp.value(t - 1.1)) +
+                       10.0 * by_rate * (ramp.rate(t - 1.0) - ramp.rate(t - 1.1));
+      INFO("t = " << t);
+      CHECK(std::abs(motion.history.displacement[0][i] - x) < 10.0 * kExact);
+    }
+    if (end == handle) {  // c y' at once
+      CHECK(std::abs(motion.history.acceleration[0][100] - 10.0) < 1e-9);
+      continue;
+    }
+    constexpr double kPeak = 1.443604083,
+                     kDigits = 5e-10;  // of the same closed form, on a fine grid in Python
+    CHECK(std::abs(motion.peaks[0].displacement - kPeak) < kDigits);
+  }
+}
+
+TEST_CASE(
+    "A contact slides from the instant at which the velocity of its support jumps, and its mass keeps its "
+    "own") {
+  // 1 kg on a spring of 1 N/m to the ground, F of friction on a base that moves by 2 m from t = 1 to 2 s:
+  // x'' + x = F until 2, x = F (1 - cos(t - 1)); then the base rests and x'' + x = -F until the mass stops,
+  // where its spring cannot move it any more: x + F = F R, R^2 = (2 - cos 1)^2 + sin^2 1.
+  const Node ground{}, mass{NodeKind::mass, 0}, base{NodeKind::prescribed, 0};
+  const Network network{
+      .masses = {"m"},
+      .prescribed = {"base"},
+      .elements = {{"k", ElementType::spring, ground, mass}, {"belt", ElementType::coulomb, base, mass}},
+      .excitations = {{ExcitationKind::recorded_motion, 0, 0}}};
+  const double F = 0.8;
+  const NetworkValues values{.omega = 1.0, .mass = {1.0}, .element = {1.0, F}, .excitation = {{1.0, 0.0}}};
+  const Record record{.name = "base",
+                      .of = RecordOf::displacement,
+                      .time = {0.0, 1.0, 2.0, 6.0},
+                      .values = {0.0, 0.0, 2.0, 2.0},
+                      .interpolation = Interpolation::linear};
+  const ForcedMotion motion = motion_of(network, values, {{0, &record}}, 8.0, 81);
+  INFO(motion.failure);
+  REQUIRE(motion.failure.empty());
+  CHECK(motion.energy.balance < kExact);
+  const double R = std::hypot(2.0 - std::cos(1.0), std::sin(1.0));
+  const double stop = 2.0 + std::atan2(std::sin(1.0), 2.0 - std::cos(1.0));
+  CHECK(std::abs(motion.history.displacement[0][15] - F * (1.0 - std::cos(0.5))) < kExact);
+  CHECK(std::abs(motion.history.velocity[0][10]) < kExact);
+  CHECK(std::abs(motion.history.velocity[0][20] - F * std::sin(1.0)) < kExact);
+  CHECK(std::abs(motion.history.displacement[0][80] - F * (R - 1.0)) < kExact);
+  REQUIRE(motion.stops[0].size() == 2);
+  CHECK(std::abs(motion.stops[0][0].release - 1.0) < kExact);
+  CHECK(std::abs(motion.stops[0][1].onset - stop) < 1e-10);
+
+  // All of it is proportional to F, and so is its derivative.
+  NetworkValues by{.omega = 0.0, .mass = {0.0}, .element = {0.0, 1.0}, .excitation = {{0.0, 0.0}}};
+  const RecordedExcitation driven{0, &record};
+  const DisplacementSensitivity sensitivity = displacement_sensitivity(
+      network, values, std::span(&by, 1), std::span(&driven, 1), 0, std::vector<double>{1.5, 2.2, 5.0}, {});
+  INFO(sensitivity.failure << sensitivity.why_none);
+  REQUIRE(sensitivity.why_none.empty());
+  for (Eigen::Index i = 0; i < 3; ++i)
+    CHECK(std::abs(sensitivity.by(i, 0) - sensitivity.displacement[i] / F) < 1e-10);
+  CHECK(std::abs(sensitivity.by(2, 0) - (R - 1.0)) < 1e-10);
+}
+
+TEST_CASE("A spline that strays from its samples is refused, and one through a smooth motion is not") {
+  const Network network = one_mass(ExcitationKind::recorded_motion);
+  const Record step = pulled(Interpolation::spline);
+  CHECK_THROWS_WITH(motion_of(network, kUnit, {{0, &step}}, 10.0, 2),
+                    Catch::Contains("record 'pull.csv': the cubic spline") && Catch::Contains("sample 3") &&
+                        Catch::Contains("sample 4") && Catch::Contains("interpolation = \"linear\""));
+  Record sine{.name = "sine", .of = RecordOf::displacement, .time = {}, .values = {}};
+  for (int i = 0; i < 40; ++i) {
+    sine.time.push_back(0.25 * std::numbers::pi * i + (i % 3 == 0 ? 0.1 : 0.0));
+    sine.values.push_back(std::sin(sine.time.back()));
+  }
+  CHECK(why_no_spline(sine).empty());
+}
+
+TEST_CASE(
+    "A support whose velocity jumps holds no inerter, and where it still moves at its end is not known") {
+  Network network = one_mass(ExcitationKind::recorded_motion);
+  Record record = pulled(Interpolation::linear);
+  record.time.pop_back();
+  record.values.pop_back();
+  CHECK_THROWS_WITH(motion_of(network, kUnit, {{0, &record}}, 2.0, 2), Catch::Contains("not known beyond"));
+  NetworkValues values = kUnit;
+  values.element.push_back(1.0);
+  network.elements.push_back({"b", ElementType::inerter, {NodeKind::prescribed, 0}, {NodeKind::mass, 0}});
+  CHECK_THROWS_WITH(motion_of(network, values, {{0, &record}}, 1.0, 2),
+                    Catch::Contains("the inerter \"b\"") && Catch::Contains("infinite force"));
+}
+
 // A record and its plain interpolation, for the reference.
 struct Drawn {
   Record record;
@@ -255,6 +393,61 @@ TEST_CASE("Random networks under records move as the independent integration say
     CHECK(error < kIntegrated * largest(motion.history));
   }
   CHECK(with_stops > 50);
+}
+
+// The velocity of straight lines, with ramps of `width` [s] in place of its jumps.
+Record velocity_of(const Record& lines, double width) {
+  Record velocity{.name = "v", .of = RecordOf::velocity, .time = {0.0}, .values = {0.0}};
+  for (std::size_t i = 0; i + 1 < lines.time.size(); ++i) {
+    const double slope = (lines.values[i + 1] - lines.values[i]) / (lines.time[i + 1] - lines.time[i]);
+    velocity.time.push_back(lines.time[i] + width);
+    velocity.values.push_back(slope);
+    velocity.time.push_back(lines.time[i + 1]);
+    velocity.values.push_back(slope);
+  }
+  return velocity;
+}
+
+TEST_CASE("Straight lines move every network as a velocity does that turns ever faster at their ends") {
+  // [s]; shorter ones are lost in the rounding of their own accelerations. What they leave is proportional to
+  // their width, and two widths take it away but for this part of the peak.
+  constexpr double kWidth = 1e-5, kTurns = 1e-5;
+  std::mt19937 random(20261128);
+  int with_stops = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    RandomNetwork drawn = random_network({.masses = 1 + trial % 4,
+                                          .contacts = 1 + trial % 4,
+                                          .maxwell_elements = trial % 4 == 3 ? 1 : 0,
+                                          .orders = {1},
+                                          .shaken = true},
+                                         random);
+    for (std::size_t e = 0; e < drawn.network.elements.size(); ++e) {
+      if (drawn.network.elements[e].type == ElementType::inerter)
+        drawn.network.elements[e].type = ElementType::damper;
+    }
+    drawn.network.excitations = {{ExcitationKind::recorded_motion, 0, 0}};
+    drawn.values.excitation = {{1.0, 0.0}};
+    Record lines = draw(RecordOf::displacement, 1.0, random).record;
+    lines.values.front() = 0.0;
+    lines.interpolation = Interpolation::linear;
+    const Record wide = velocity_of(lines, kWidth), narrow = velocity_of(lines, 0.5 * kWidth);
+    const double end = lines.time.back() - 1e-3;
+    const ForcedMotion exact = motion_of(drawn.network, drawn.values, {{0, &lines}}, end, 61);
+    const ForcedMotion of_wide = motion_of(drawn.network, drawn.values, {{0, &wide}}, end, 61);
+    const ForcedMotion of_narrow = motion_of(drawn.network, drawn.values, {{0, &narrow}}, end, 61);
+    INFO("trial " << trial << " " << exact.failure << " " << of_wide.failure << " " << of_narrow.failure);
+    REQUIRE((exact.failure.empty() && of_wide.failure.empty() && of_narrow.failure.empty()));
+    CHECK(exact.energy.balance < 1e-10);
+    for (const auto& stops : exact.stops) with_stops += stops.size() > 1;
+    double difference = 0.0;
+    for (std::size_t mass = 0; mass < drawn.network.masses.size(); ++mass)
+      for (std::size_t i = 0; i < exact.history.time.size(); ++i)
+        difference = std::max(difference, std::abs(exact.history.displacement[mass][i] -
+                                                   2.0 * of_narrow.history.displacement[mass][i] +
+                                                   of_wide.history.displacement[mass][i]));
+    CHECK(difference < kTurns * largest(exact.history));
+  }
+  CHECK(with_stops > 10);
 }
 
 TEST_CASE("A record with further samples on its own lines moves every network alike") {

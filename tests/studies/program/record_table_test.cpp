@@ -34,7 +34,8 @@ TEST_CASE("A record is told by its samples, its peak, its ends and its baseline"
   const TemporaryFolder folder;
   folder.write("quiet.csv", "0,0\n1,1\n2,0\n3,-1\n4,0\n");
   const std::string text = told(folder, "file = \"quiet.csv\"\n", 20.0);
-  CHECK_THAT(text, Contains("record     acceleration of \"base\" by quiet.csv: 5 samples, every 1 s, 4 s\n"));
+  CHECK_THAT(text, Contains("record     acceleration of \"base\" by quiet.csv: 5 samples, every 1 s, 4 s; "
+                            "straight lines between them\n"));
   CHECK_THAT(text, Contains("peak 1 m/s2 at 1 s; 0 at its start, 0 at its end\n"));
   CHECK_THAT(text, Contains("at the end 0 m/s (largest 1 m/s) and 2 m (largest 2 m)"));
   CHECK_THAT(text, !Contains("warning"));
@@ -56,9 +57,8 @@ TEST_CASE("Samples that are missing are told with their place and are no coarse 
     rows += fmt::format("{},{}\n", 0.1 * i, i % 2 == 0 ? 1 : -1);
   folder.write("gap.csv", rows);
   const std::string text = told(folder, "file = \"gap.csv\"\n", 2.0);
-  CHECK_THAT(text,
-             Contains("warning: acceleration of \"base\" by gap.csv: no sample from 0.5 to 5.5 s, 50 "
-                      "times its usual interval of 0.1 s; the straight line between stands for them\n"));
+  CHECK_THAT(text, Contains("warning: acceleration of \"base\" by gap.csv: no sample from 0.5 to 5.5 s, 50 "
+                            "times its usual interval of 0.1 s; a straight line between stands for them\n"));
   CHECK_THAT(text, !Contains("samples in a period"));
   folder.write("uneven.csv", "0,0\n0.1,1\n0.2,-1\n1,1\n1.1,0\n");
   CHECK_THAT(told(folder, "file = \"uneven.csv\"\n", 20.0), !Contains("no sample"));

@@ -131,6 +131,52 @@ TEST_CASE("The fingerprint of a study is that of its records' samples, not of th
   CHECK(physics("changed.csv") != physics("quake.csv"));
 }
 
+const std::string pull = "time [s],d [m]\n0,0\n1,0\n1.1,1\n10,1\n";
+
+TEST_CASE("A displacement from corner to corner is no spline: it is refused, and read as straight lines") {
+  const Read read;
+  read.folder.write("pull.csv", pull);
+  const std::string base = "displacement_of = \"base\"\nfile = \"pull.csv\"\n";
+  CHECK_THROWS_WITH(read.study(record(base)),
+                    Catch::Contains("study.toml:25:8: ") && Catch::Contains("pull.csv: the cubic spline") &&
+                        Catch::Contains("between sample 3 (1 at 1.1 s) and sample 4 (1 at 10 s)") &&
+                        Catch::Contains("a quarter of the record's range") &&
+                        Catch::Contains("interpolation = \"linear\""));
+  const std::string lines = base + "interpolation = \"linear\"\n";
+  const Study study = read.study(record(lines));
+  CHECK(study.transient()->records.at(0).records.at(0).jumps());
+  // A straight line has an end anywhere.
+  const Study cut = read.study(record(lines + "from = 1.05\n"));
+  CHECK_THAT(cut.transient()->records.at(0).records.at(0).values.front(), Catch::WithinAbs(0.5, rounding));
+}
+
+TEST_CASE("What stands between the samples of a displacement is part of the study's identity") {
+  const Read read;
+  const std::string base = "displacement_of = \"base\"\nfile = \"quake.csv\"\nunit = \"mm\"\ncolumn = 4\n";
+  read.folder.write("quake.csv", "0,0,0,1\n1,0.1,-1,2\n2,-0.2,3,3\n4,0,1,4\n");
+  const auto physics = [&](const std::string& keys) {
+    return fingerprint(read.study(record(base + keys))).physics;
+  };
+  CHECK(physics("") == physics("interpolation = \"spline\"\n"));
+  CHECK(physics("") != physics("interpolation = \"linear\"\n"));
+}
+
+TEST_CASE("Only displacements have a choice between samples, and no straight lines where an inerter hangs") {
+  const Read read;
+  CHECK_THROWS_WITH(
+      read.study(record("acceleration_of = \"base\"\nfile = \"quake.csv\"\ninterpolation = \"linear\"\n")),
+      Catch::Contains("interpolation: is of displacement_of"));
+  read.folder.write("pull.csv", pull);
+  const std::string inerter =
+      "[transient]\n[[element]]\nname = \"b\"\ntype = \"inerter\"\nbetween = [\"base\", \"roof\"]\n"
+      "inertance = 1\n";
+  CHECK_THROWS_WITH(
+      read.study(record("displacement_of = \"base\"\nfile = \"pull.csv\"\ninterpolation = \"linear\"\n"),
+                 inerter),
+      Catch::Contains("interpolation: straight lines make the velocity of \"base\" jump") &&
+          Catch::Contains("the inerter \"b\""));
+}
+
 TEST_CASE("An axis gives its records to every excitation without a file, by that one's column") {
   const Read read;
   read.folder.write("other.csv", "t [s],ew [m/s2],ns [m/s2]\n0,1,2\n3,4,5\n");
