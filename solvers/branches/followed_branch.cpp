@@ -47,7 +47,7 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   Shot shot = map_.shoot(y);
   BranchPoint point{.parameter = map_.parameter(y), .quantities = std::vector<double>(quantities_)};
   if (shot.failed) {
-    observables_.fill_missing(Status::failed, point.quantities);
+    observables_.fill_missing(Status::failed, 0, point.quantities);
     return point;
   }
   const AnyOrbit orbit = map_.orbit(y, std::move(shot));

@@ -21,8 +21,12 @@ class PartOfBranch {
   double at(const BranchPlace& place) const { return from_.tangent.dot(place.y - from_.y); }
   // The place at s, searched from the chord between two that are known.
   std::optional<BranchPlace> place(double s, const BranchPlace& a, const BranchPlace& b) const;
+  // Where none is found there, another one between them.
+  std::optional<BranchPlace> place_near(double s, const BranchPlace& a, const BranchPlace& b) const;
 
  private:
+  std::optional<BranchPlace> place_along(const BranchPlace& side, double s, double within) const;
+
   BranchMap& map_;
   const BranchPlace& from_;
   const BranchPlace& to_;

@@ -20,7 +20,7 @@ Border border_of_event(const PartOfBranch& stretch, std::size_t event) {
   constexpr int kMostSteps = 60;
   BranchPlace a = stretch.from(), b = stretch.to();
   for (int i = 0; i < kMostSteps && stretch.at(b) - stretch.at(a) > BranchRoot::kClosed; ++i) {
-    const auto place = stretch.place(0.5 * (stretch.at(a) + stretch.at(b)), a, b);
+    const auto place = stretch.place_near(0.5 * (stretch.at(a) + stretch.at(b)), a, b);
     if (!place) break;
     (place->events[event] == stretch.from().events[event] ? a : b) = *place;
   }

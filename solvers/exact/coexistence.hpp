@@ -51,7 +51,9 @@ StableOrbits<N, H> Coexistence<N, H>::find(const mechanics::LinearSystem& system
   for (int i = 0; found.failure == nullptr && i < wanted_.starts; ++i) {
     typename S::State z = start(i, system);
     if (!search_.follow(z, search_.kOfStart, system, found)) found.unsettled.push_back(z);
+    if (found.failure != nullptr) found.not_followed = wanted_.starts - 1 - i;
   }
+  search_.add_mirrors(system, found);
   return found;
 }
 
@@ -59,6 +61,7 @@ template <int N, int H>
 void Coexistence<N, H>::add(const mechanics::LinearSystem& system, const Orbits& after, Orbits& found) {
   search_.begin(system);
   continue_from(after, system, found);
+  search_.add_mirrors(system, found);
 }
 
 template <int N, int H>
@@ -79,6 +82,7 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits
                        : none_stable(wanted_.starts, wanted_.most_multiple, found.found_unstable);
     orbit.residual = kNone;
     orbit.coexisting = 0;
+    orbit.unsettled = found.starts_unsettled();
     orbit.passages = found.passages;
     orbit.newton_iterations = found.newton_iterations;
     return;
@@ -95,6 +99,7 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits
   if (found.stable.empty()) return search_.tell_motion(system, found.unsettled[which], orbit);
   search_.tell(system, found, which, orbit);
   orbit.coexisting = static_cast<int>(found.stable.size());
+  orbit.unsettled = found.starts_unsettled();
   if (orbit.coexisting > 1 && orbit.status == Status::ok) orbit.status = Status::several;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <span>
@@ -104,6 +105,7 @@ class ResponseSolver {
   virtual std::vector<KnownOrbit> known() const { return {}; }
   virtual void tell(int) {}
   virtual int multiple() const { return 1; }  // of the excitation's period, that what is told takes
+  virtual std::vector<std::complex<double>> multipliers() { return {}; }
   virtual void quantities(std::span<double> out) = 0;
   virtual const char* gradient(std::span<const mechanics::NetworkValues> directions,
                                std::span<double> out) = 0;

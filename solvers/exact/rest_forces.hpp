@@ -141,8 +141,11 @@ std::vector<StuckForce> RestForces<N, H>::across(const std::vector<OrbitCut>& cu
     const Extremes force = find_extremes(steps, flow_, orbit.section, [&](const Mode<N, H>& mode) {
       return is_told(cut, mode) ? form(cut, mode) : first_told;
     });
+    const auto& eq = flow_.equations();
+    const bool falls = (eq.static_limit - eq.limit).dot(cut.shares.cwiseAbs()) > 0.0;
     forces.push_back({cut.shares(list_of(orbit.stuck_throughout)), force.least, force.most,
-                      cut.shares.cwiseAbs().dot(flow_.equations().static_limit)});
+                      cut.shares.cwiseAbs().dot(eq.static_limit),
+                      falls || (eq.bends.count() > 0 && !eq.monotone)});
   }
   return forces;
 }

@@ -23,7 +23,7 @@ class RestSearch {
  public:
   // Both must outlive the search.
   RestSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow)
-      : forces_(assembly, flow), flow_(flow), shooting_(flow), steps_(flow) {}
+      : forces_(assembly, flow), flow_(flow), walk_(flow), shooting_(flow), steps_(flow) {}
 
   // Moves the only orbit of a system to its rest position. Contacts that barely slide are held, if that gives
   // an orbit.
@@ -36,6 +36,14 @@ class RestSearch {
   // grazing. `orbit` is unchanged if no rest position keeps the forces within their limits.
   Shift shift(Orbit<N, H>& orbit);
 
+  // The same where bends make the whole motion change with the rest position: that whose mean state has the
+  // least energy. False, with `orbit` unchanged, where it is not found. passages: what it took is added.
+  bool shift_bent(Orbit<N, H>& orbit, int& passages);
+
+  // Moves `orbit` to the middle of its rest positions. False where the limits leave no room, or contacts
+  // share forces; `orbit` is then of no use.
+  bool shift_to_middle(Orbit<N, H>& orbit);
+
   // Whether an orbit exists with these contacts held by forces within their limits; sets `orbit` to it.
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
   // Contacts that slide for less than this share of the passage, or by a negligible distance.
@@ -46,6 +54,13 @@ class RestSearch {
     steps_.lay_out(orbit);
     return forces_.across(cuts, orbit, steps_);
   }
+  struct Family : RestFamily {
+    Eigen::MatrixXd directions;  // of the state at the section, states x contacts
+  };
+  bool measure(Orbit<N, H>& orbit, const std::vector<OrbitCut>& each, RestFamily& family);
+  bool look_about(Orbit<N, H>& orbit, Family& family, int& passages);
+  bool step_along(const typename Sizes<N, H>::State& by, Orbit<N, H>& orbit, int& passages);
+
   bool share_anew(Orbit<N, H>& orbit);
   bool shares_break_limits(const Orbit<N, H>& orbit);
 
@@ -61,6 +76,7 @@ class RestSearch {
 
   RestForces<N, H> forces_;
   Flow<N, H>& flow_;
+  Walk<N, H> walk_;
   Shooting<N, H> shooting_;
   OrbitSteps<N, H> steps_;
   Integrals<N, H> integrals_;
@@ -255,6 +271,121 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   if (!is_inside) orbit.status = Status::grazing;
   const double size = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
   return eq.energy_norm(by) > kFar * size ? Shift::far : Shift::near;
+}
+
+// Mean state, and the forces of the contacts that stick throughout.
+template <int N, int H>
+bool RestSearch<N, H>::measure(Orbit<N, H>& orbit, const std::vector<OrbitCut>& each, RestFamily& family) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const std::vector<StuckForce> forces = forces_across(each, orbit);
+  const auto m = static_cast<Eigen::Index>(forces.size());
+  family.least.resize(m);
+  family.most.resize(m);
+  family.limit.resize(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const StuckForce& force = forces[static_cast<std::size_t>(i)];
+    family.least[i] = force.least;
+    family.most[i] = force.most;
+    family.limit[i] = force.limit;
+  }
+  integrals_.integrate(steps_, flow_, false, {}, [](const auto&, auto& powers) { powers.clear(); });
+  family.mean = integrals_.gram().col(eq.states()).head(eq.states()) / (eq.period * eq.step);
+  return family.mean.allFinite();
+}
+
+// The family about an orbit: along each direction, in which the motion is periodic too, by central
+// differences of the fourth order with the contacts held.
+template <int N, int H>
+bool RestSearch<N, H>::look_about(Orbit<N, H>& orbit, Family& family, int& passages) {
+  constexpr double kPart = 1e-3;  // of a limit, and of the orbit
+  const StepEquations<N, H>& eq = flow_.equations();
+  const ContactMask stuck = orbit.stuck_throughout;
+  const std::vector<OrbitCut> each = forces_.each_alone(stuck);
+  if (!measure(orbit, each, family)) return false;
+  follow_tangent(flow_, orbit);
+  const RestDirections rest = rest_directions(eq, stuck);
+  Eigen::MatrixXd B = shift_projector(rest) - Eigen::MatrixXd(orbit.passage.tangent);
+  B.diagonal().array() += 1.0;
+  family.directions = B.partialPivLu().solve(rest.E);
+  if (!family.directions.allFinite()) return false;
+  const Eigen::Index m = family.limit.size();
+  family.of_mean.setZero(eq.states(), m);
+  family.of_least.setZero(m, m);
+  family.of_most.setZero(m, m);
+  family.energy_of_mean.resize(eq.states(), m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const typename Sizes<N, H>::State direction = family.directions.col(j);
+    const double step =
+        kPart * std::min(family.limit[j], flow_.energy_scale(orbit.z) / eq.energy_norm(direction));
+    for (const auto& [at, weight] : {std::pair(-2.0, 1.0), {-1.0, -8.0}, {1.0, 8.0}, {2.0, -1.0}}) {
+      Orbit<N, H> beside = orbit;
+      beside.z += at * step * direction;
+      walk_.pass(beside.z, beside.section, eq.period, beside.passage, Tangent::none, stuck);
+      passages += orbit.multiple;
+      RestFamily there;
+      if (beside.passage.failure != nullptr || stuck_throughout(flow_, beside.passage) != stuck ||
+          !measure(beside, each, there))
+        return false;
+      family.of_mean.col(j) += weight / (12.0 * step) * there.mean;
+      family.of_least.col(j) += weight / (12.0 * step) * there.least;
+      family.of_most.col(j) += weight / (12.0 * step) * there.most;
+    }
+    family.energy_of_mean.col(j) = eq.weighted_by_energy(typename Sizes<N, H>::State(family.of_mean.col(j)));
+  }
+  return true;
+}
+
+// As far along as an orbit with the same contacts held is found.
+template <int N, int H>
+bool RestSearch<N, H>::step_along(const typename Sizes<N, H>::State& by, Orbit<N, H>& orbit, int& passages) {
+  constexpr int kMostHalvings = 6;
+  double share = 1.0;
+  for (int halvings = 0; halvings <= kMostHalvings; ++halvings, share *= 0.5) {
+    Orbit<N, H> next = orbit;
+    next.z += share * by;
+    shooting_.find(next, orbit.stuck_throughout);
+    passages += orbit.multiple * next.passages;
+    if (!next.is_found() || next.stuck_throughout != orbit.stuck_throughout) continue;
+    std::swap(orbit, next);
+    return true;
+  }
+  return false;
+}
+
+template <int N, int H>
+bool RestSearch<N, H>::shift_bent(Orbit<N, H>& orbit, int& passages) {
+  constexpr int kMostSteps = 40;
+  constexpr double kAgrees = 1e-11;  // of the orbit's size
+  if (forces_.cuts_through(orbit.stuck_throughout, orbit).in_loops) return false;
+  Orbit<N, H> moved = orbit;
+  Family family;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (!look_about(moved, family, passages)) return false;
+    const RestShift found = least_energy_step(family);
+    if (found.verdict == RestShift::Verdict::none) return false;
+    const typename Sizes<N, H>::State by = family.directions * found.delta;
+    if (!step_along(by, moved, passages)) return false;
+    if (flow_.equations().energy_norm(by) > kAgrees * flow_.energy_scale(moved.z)) continue;
+    shooting_.find(moved);  // with none held
+    passages += moved.multiple * moved.passages;
+    if (!moved.is_found() || moved.stuck_throughout != orbit.stuck_throughout) return false;
+    if (found.verdict == RestShift::Verdict::at_limit) moved.status = Status::grazing;
+    std::swap(orbit, moved);
+    return true;
+  }
+  return false;
+}
+
+template <int N, int H>
+bool RestSearch<N, H>::shift_to_middle(Orbit<N, H>& orbit) {
+  const ContactMask stuck = orbit.stuck_throughout;
+  const OrbitCuts cuts = forces_.cuts_through(stuck, orbit);
+  if (cuts.in_loops) return false;
+  const RestShift found = middle_shift(forces_across(cuts.all, orbit));
+  if (found.verdict != RestShift::Verdict::inside) return false;
+  shift_orbit<N, H>(rest_directions(flow_.equations(), stuck).E * found.delta, orbit);
+  shooting_.find(orbit);
+  return orbit.is_found() && orbit.stuck_throughout == stuck;
 }
 
 // Whether the shares that contacts are told to carry break the limits of some.

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <complex>
 #include <memory>
 
+#include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/exact/coexistence.hpp"
 #include "solvers/exact/nonstop_row.hpp"
 #include "solvers/exact/orbit_search.hpp"
@@ -74,12 +77,13 @@ class SizedSolver final : public ResponseSolver {
   std::vector<KnownOrbit> known() const override { return known_orbits(before_); }
   void tell(int which) override;
   int multiple() const override { return orbit_.multiple; }
+  std::vector<std::complex<double>> multipliers() override;
 
   void quantities(std::span<double> out) override {
     if (has_response() || tells_motion_)
       observables_.evaluate(orbit_, told(), out);
     else
-      observables_.fill_missing(orbit_.status, out);
+      observables_.fill_missing(orbit_.status, orbit_.unsettled, out);
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out) override {
@@ -176,6 +180,19 @@ void SizedSolver<N, H>::tell(int which) {
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   tells_motion_ = orbit_.status == Status::not_periodic && orbit_.passage.failure == nullptr;
   if (orbit_.is_found() && is_to_be_weighed()) weigh();
+}
+
+// Where an event only just happens they do not exist.
+template <int N, int H>
+std::vector<std::complex<double>> SizedSolver<N, H>::multipliers() {
+  if (!has_response()) return {};
+  if (orbit_.passage.margin < kGrazing && orbit_.passage.events > 0) return {};
+  follow_tangent(flow_, orbit_);
+  Eigen::VectorXcd values =
+      algebra::eigenvalues(moving_part(flow_, orbit_.passage.tangent, orbit_.stuck_throughout));
+  if (orbit_.half_period) values = values.array().square();
+  std::ranges::sort(values, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  return {values.begin(), values.end()};
 }
 
 // The energy balance is checked where it is requested, and wherever an event is close to another outcome.

@@ -28,10 +28,13 @@ struct StableOrbits {
   std::vector<StableOrbit<N, H>> stable;
   std::vector<typename Sizes<N, H>::State> unsettled;  // where motions were given up that came near no orbit
   const char* failure = nullptr;                       // why nothing more is followed
+  int not_followed = 0;                                // starts, after a failure
   bool found_unstable = false;
   int passages = 0, newton_iterations = 0;
   double step = 0.0;  // [s], in which the states count the time
   Eigen::Index masses = 0;
+
+  int starts_unsettled() const { return static_cast<int>(unsettled.size()) + not_followed; }
 };
 
 // Starts of a search.

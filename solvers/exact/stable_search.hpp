@@ -62,6 +62,8 @@ class StableSearch {
   // The stable orbit to which the motion from z comes within so many periods; it is added too. z becomes the
   // motion's end.
   Index follow(typename S::State& z, int longest, const mechanics::LinearSystem& system, Orbits& found);
+  // Adds the mirror image -z(t + T/2) of each stable orbit that is not its own, where it is an orbit too.
+  void add_mirrors(const mechanics::LinearSystem& system, Orbits& found);
   // The orbit once more, in its own multiple of the period, to which the flow is left set.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
             Orbit<N, H>& orbit);
@@ -81,7 +83,8 @@ class StableSearch {
   void bring_to_rest(Orbit<N, H>& orbit, int& passages);
   Sequence sequence_of(const Orbit<N, H>& orbit) const;
   Index of_known_family(const StableOrbit<N, H>& orbit, const Orbits& found) const;
-  bool is_stable(const Orbit<N, H>& orbit, Orbits& found);
+  bool is_stable(const Orbit<N, H>& orbit, const Orbit<N, H>& as_found, Orbits& found);
+  bool is_edge_of_stable_family(const Orbit<N, H>& orbit, const Orbit<N, H>& as_found);
   bool dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found);
   double peak(const Orbit<N, H>& orbit);
   Index keep(const Orbit<N, H>& orbit, StableOrbit<N, H> kept, Orbits& found);
@@ -94,6 +97,8 @@ class StableSearch {
   RestSearch<N, H> rest_;
   int most_multiple_;
   Passage<N, H> passage_;
+  // By Newton's method in find_near, before contacts were brought to rest; as distance().
+  double moved_ = 0.0;
 };
 
 template <int N, int H>
@@ -114,7 +119,7 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State&
       if (const Index there = known(z, kThere, found)) return there;
     }
     const Index near = find_near(z, likely_multiple(trail), system, found);
-    if (near && distance(z, found.stable[*near]) < kNear) return near;
+    if (near && (moved_ < kNear || distance(z, found.stable[*near]) < kNear)) return near;
   }
   return std::nullopt;
 }
@@ -157,9 +162,14 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename 
   found.newton_iterations += orbit.newton_iterations;
   bool stable = false;
   if (orbit.is_found()) {
-    if (orbit.stuck_throughout != 0) bring_to_rest(orbit, found.passages);
+    moved_ = flow_.equations().energy_norm(orbit.z - z) / flow_.energy_scale(orbit.z);
+    Orbit<N, H> as_found;
+    if (orbit.stuck_throughout != 0) {
+      as_found = orbit;
+      bring_to_rest(orbit, found.passages);
+    }
     judge_stability(flow_, orbit);
-    stable = is_stable(orbit, found);
+    stable = is_stable(orbit, as_found, found);
     found.found_unstable = found.found_unstable || !stable;
   }
   StableOrbit<N, H> kept{.returns = {orbit.z}, .stuck_throughout = orbit.stuck_throughout};
@@ -172,8 +182,9 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename 
 }
 
 // Moves an orbit with contacts that stick throughout to its rest position. The shift leaves the rest of the
-// motion as it is, but where stops or springs bend: there the orbit is found again from the shifted one,
-// until both agree. Where they do not, or the contacts then slip, it stays where it was found.
+// motion as it is, but where stops or springs bend: there the whole family of orbits is searched. Where that
+// fails, as in loops of contacts, the orbit is found again from the shifted one, until both agree. Where they
+// do not, or the contacts then slip, it stays where it was found.
 template <int N, int H>
 void StableSearch<N, H>::bring_to_rest(Orbit<N, H>& orbit, int& passages) {
   constexpr int kMostShifts = 30;
@@ -182,6 +193,7 @@ void StableSearch<N, H>::bring_to_rest(Orbit<N, H>& orbit, int& passages) {
     rest_.shift(orbit);
     return;
   }
+  if (rest_.shift_bent(orbit, passages)) return;
   const Orbit<N, H> as_found = orbit;
   for (int shift = 0; shift < kMostShifts; ++shift) {
     const typename S::State before = orbit.z;
@@ -222,18 +234,33 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::of_known_family(const Sta
 }
 
 // Where an event only just happens, or a contact at rest only just holds, the multipliers do not exist or say
-// nothing of the motions beside the orbit on one side; they are followed.
+// nothing of the motions beside the orbit on one side; they are followed. as_found: the orbit before its
+// contacts that stick throughout were brought to rest.
 template <int N, int H>
-bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, Orbits& found) {
+bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, const Orbit<N, H>& as_found, Orbits& found) {
   constexpr double kSmall = 1e-4;
   const bool has_kink = orbit.status == Status::grazing || std::isnan(orbit.floquet_radius);
   if (!has_kink) return orbit.is_stable();
+  if (is_edge_of_stable_family(orbit, as_found)) return true;
   if (known(orbit.z, kSmall, found)) return true;  // judged before
   for (const int index : {1, 2}) {
     const typename S::State by = disturbance(flow_, orbit.z, kSmall, index);
     if (!dies_out(by, orbit, found) || !dies_out(-by, orbit, found)) return false;
   }
   return true;
+}
+
+// Contacts that stick throughout may rest anywhere in an interval, and the rule may put them at its edge.
+// What is beyond it says nothing of the motions that rest inside, which are judged in its place: a static
+// force that just breaks away may throw the motion far, to rest at another place of the same family.
+template <int N, int H>
+bool StableSearch<N, H>::is_edge_of_stable_family(const Orbit<N, H>& orbit, const Orbit<N, H>& as_found) {
+  if (orbit.stuck_throughout == 0) return false;
+  Orbit<N, H> inside = as_found;
+  if (inside.status == Status::grazing && !rest_.shift_to_middle(inside)) return false;
+  if (inside.status == Status::grazing) return false;
+  judge_stability(flow_, inside);
+  return inside.is_stable();
 }
 
 // Whether the motion beside an orbit comes closer to it. The rest positions of contacts that stick throughout
@@ -286,6 +313,34 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::keep(const Orbit<N, H>& o
   if (const Index family = of_known_family(kept, found)) return family;
   found.stable.push_back(std::move(kept));
   return found.stable.size() - 1;
+}
+
+// Under odd forcing, where the laws are odd too: whether they are, the motion from there shows, which closes.
+template <int N, int H>
+void StableSearch<N, H>::add_mirrors(const mechanics::LinearSystem& system, Orbits& found) {
+  constexpr double kSame = 1e-7;
+  if (!system.odd_forcing) return;
+  const double period = flow_.equations().period;
+  const std::size_t count = found.stable.size();
+  for (std::size_t i = 0; i < count && found.failure == nullptr; ++i) {
+    const int multiple = found.stable[i].multiple();
+    walk_.pass(found.stable[i].returns.front(), 0.0, 0.5 * period, passage_, Tangent::none);
+    ++found.passages;
+    if (passage_.failure != nullptr) continue;
+    const typename S::State mirrored = -passage_.end;
+    if (known(mirrored, kSame, found)) continue;
+    typename S::State z = mirrored;
+    for (int m = 0; m < multiple && passage_.failure == nullptr; ++m, ++found.passages) {
+      walk_.pass(z, 0.0, period, passage_, Tangent::none);
+      z = passage_.end;
+    }
+    const double gap = flow_.equations().energy_norm(z - mirrored);
+    if (passage_.failure != nullptr || !(gap < kSame * flow_.energy_scale(mirrored))) continue;
+    const std::size_t before = found.stable.size();
+    find_near(mirrored, multiple, system, found);
+    // The same peak, so that of the pair the one that was found first counts as the larger.
+    if (found.stable.size() > before) found.stable.back().peak = found.stable[i].peak;
+  }
 }
 
 template <int N, int H>

@@ -70,6 +70,7 @@ template <int N, int H>
 void Continuation<N, H>::find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   predict(system, orbit);
   orbit.multiple = orbit.coexisting = 1;
+  orbit.unsettled = 0;
   shooting_.find(orbit);
   if (orbit.status == Status::failed && known_ > 0) {  // once more, without the known orbits
     forget();

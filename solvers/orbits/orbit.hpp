@@ -49,6 +49,7 @@ struct Orbit {
 
   int multiple = 1;    // of the forcing's period, that the orbit takes
   int coexisting = 1;  // stable orbits that were found
+  int unsettled = 0;   // starts of the search whose motions came to no stable orbit
 
   double sign() const { return half_period ? -1.0 : 1.0; }
   bool is_found() const { return has_response(status); }

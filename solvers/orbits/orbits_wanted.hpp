@@ -9,7 +9,7 @@ struct OrbitsWanted {
   // searched.
   enum class Show { largest, smallest, up, down };
   int starts = 8;         // beside the orbits of the points before and after
-  int most_multiple = 4;  // of the forcing's period
+  int most_multiple = 6;  // of the forcing's period
   Show show = Show::largest;
 
   static bool is_sweep(Show show) { return show == Show::up || show == Show::down; }

@@ -54,8 +54,9 @@ bool close(Bounds& bounds) {
 }
 
 // Forces that stay inside their limits by this much, where they can, let no contact slip by rounding.
-void keep_from_slipping(Bounds& bounds) {
+void keep_from_slipping(Bounds& bounds, std::span<const StuckForce> forces, bool all) {
   for (Index i = 0; i < bounds.limit.size(); ++i) {
+    if (!all && !forces[static_cast<std::size_t>(i)].stays_inside) continue;
     const double by = std::min(kInside * bounds.size[i], 0.5 * (bounds.upper[i] - bounds.lower[i]));
     bounds.lower[i] += by;
     bounds.upper[i] -= by;
@@ -91,16 +92,52 @@ RestShift least_energy_shift(const RestDirections& rest, const VectorXd& z_mean,
   const VectorXd c = -(rest.L.transpose() * z_mean);
   RestShift shift;
   if (bounds.A.isIdentity(0.0)) {
+    keep_from_slipping(bounds, forces, false);
     const BoxMinimum minimum = box_minimum(G, c, bounds.lower, bounds.upper, bounds.limit);
     if (!minimum.found) return {};
     shift.delta = minimum.lambda;
   } else {
-    keep_from_slipping(bounds);
+    keep_from_slipping(bounds, forces, true);
     shift.delta = shared_minimum(G, c, bounds);
     if (!shift.delta.allFinite() || bounds.room(shift.delta) < kBroken) return {};
   }
   shift.verdict =
       bounds.room(shift.delta) <= kGrazing ? RestShift::Verdict::at_limit : RestShift::Verdict::inside;
+  return shift;
+}
+
+// By the dual, as shared_minimum: limits of the largest and the least force are different rows here.
+RestShift least_energy_step(const RestFamily& family) {
+  const Index m = family.limit.size();
+  const VectorXd inside = (1.0 - kInside) * family.limit;
+  MatrixXd B(2 * m, m);
+  B << family.of_most, -family.of_least;
+  VectorXd b(2 * m);
+  b << inside - family.most, inside + family.least;
+  const MatrixXd G = family.of_mean.transpose() * family.energy_of_mean;
+  const VectorXd c = -(family.energy_of_mean.transpose() * family.mean);
+  const MatrixXd inverse = weighted_pseudo_inverse(G, VectorXd::Ones(m));
+  const VectorXd size = (B * inverse * B.transpose()).diagonal().cwiseSqrt().cwiseInverse();
+  B = (size.asDiagonal() * B).eval();
+  b = (size.asDiagonal() * b).eval();
+  const VectorXd ones = VectorXd::Ones(2 * m);
+  RestShift shift;
+  if (!B.allFinite() || !b.allFinite()) return shift;
+  const BoxMinimum dual =
+      box_minimum(B * inverse * B.transpose(), B * (inverse * c) - b, 0.0 * ones, HUGE_VAL * ones, ones);
+  shift.delta = inverse * (c - B.transpose() * dual.lambda);
+  if (!dual.found || !shift.delta.allFinite()) return shift;
+  shift.verdict = dual.lambda.maxCoeff() > 0.0 ? RestShift::Verdict::at_limit : RestShift::Verdict::inside;
+  return shift;
+}
+
+RestShift middle_shift(std::span<const StuckForce> forces) {
+  RestShift shift;
+  if (forces.empty()) return shift;
+  const Bounds bounds = bounds_of(forces, forces.front().shares.size());
+  if (!bounds.A.isIdentity(0.0)) return shift;
+  shift.delta = 0.5 * (bounds.lower + bounds.upper);
+  if (bounds.room(shift.delta) > kGrazing) shift.verdict = RestShift::Verdict::inside;
   return shift;
 }
 

@@ -14,6 +14,9 @@ namespace frahm::periodic {
 struct StuckForce {
   Eigen::VectorXd shares;  // of the contacts that stick throughout
   double least = 0.0, most = 0.0, limit = 0.0;
+  // At the limit it is not to stay, where rounding would let it go and throw the motion elsewhere: it falls
+  // to a kinetic limit, or an orbit with bends is followed once more from there.
+  bool stays_inside = false;
 };
 inline bool break_limits(std::span<const StuckForce> forces) {
   constexpr double kBeyond = 1.0 + 1e-9;
@@ -40,6 +43,19 @@ struct RestShift {
 //   G = L^T E,  c = -L^T z_mean.
 RestShift least_energy_shift(const RestDirections& rest, const Eigen::VectorXd& z_mean,
                              std::span<const StuckForce> forces);
+
+// The family of orbits about one of them, where bends make the whole motion change with the rest position:
+// mean state and forces, and what they change by per force delta of each contact.
+struct RestFamily {
+  Eigen::VectorXd mean, least, most, limit;    // states; contacts
+  Eigen::MatrixXd of_mean, of_least, of_most;  // states x contacts; contacts x contacts
+  Eigen::MatrixXd energy_of_mean;              // energy-weighted `of_mean`
+};
+// The delta to the rest position of least energy of the mean state, as far as the family is linear.
+RestShift least_energy_step(const RestFamily& family);
+
+// To the middle of what the limits allow, each contact by itself: `inside` where there is room about it.
+RestShift middle_shift(std::span<const StuckForce> forces);
 
 // Moves the whole orbit by a displacement of its state.
 template <int N, int H>

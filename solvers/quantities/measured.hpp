@@ -51,7 +51,8 @@ struct Measured {
   double residual = 0.0;        // 1
   double error_bound = kNone;   // [m]
   double floquet_radius = 0.0;  // 1
-  int coexisting = 1, multiple = 1;
+  int coexisting = 1, multiple = 1, unsettled = 0;
+  int free_sliders = 0;  // of jenkins and iwan elements, which never slip
   int newton_iterations = 0;
   int events = -1;           // in a period; -1: the law has none
   double static_norm = 0.0;  // energy norm of the static response to the excitation's amplitudes [sqrt(J)]

@@ -48,8 +48,10 @@ class Observables {
 
   // out[i] is quantity i.
   void evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, std::span<double> out);
-  // For a point without a response.
-  void fill_missing(Status status, std::span<double> out) const { tell_missing(request_, status, out); }
+  // For a point without a response; unsettled: starts of the search that came to none.
+  void fill_missing(Status status, int unsettled, std::span<double> out) const {
+    tell_missing(request_, status, unsettled, out);
+  }
 
  private:
   void measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, const Needs& needs) {

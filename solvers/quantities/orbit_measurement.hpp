@@ -59,6 +59,9 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
   measured.floquet_radius = orbit.floquet_radius;
   measured.coexisting = orbit.coexisting;
   measured.multiple = orbit.multiple;
+  measured.unsettled = orbit.unsettled;
+  measured.free_sliders = 0;
+  for (const Eigen::Index j : list_of(orbit.stuck_throughout)) measured.free_sliders += eq.holds(j) ? 0 : 1;
   measured.newton_iterations = orbit.newton_iterations;
   measured.events = (orbit.half_period ? 2 : 1) * (orbit.passage.events - orbit.passage.bends);
   measured.static_norm = flow_.static_norm();

@@ -18,6 +18,10 @@ namespace {
 
 using mechanics::Network;
 
+bool has_slider(const mechanics::Element& element) {
+  return element.type == mechanics::ElementType::jenkins;
+}
+
 std::string owner_name(Owner owner, std::size_t index, const Network& network) {
   switch (owner) {
     case Owner::mass:
@@ -33,6 +37,7 @@ std::string owner_name(Owner owner, std::size_t index, const Network& network) {
     case Owner::point:
     case Owner::structure:
     case Owner::coexistence:
+    case Owner::offsets:
       break;
   }
   return "";
@@ -54,6 +59,8 @@ std::size_t owner_count(Owner owner, const Network& network) {
       return mechanics::has_structural_damping(network) ? 1 : 0;
     case Owner::coexistence:
       return mechanics::may_have_several_responses(network) ? 1 : 0;
+    case Owner::offsets:
+      return std::ranges::any_of(network.elements, has_slider) ? 1 : 0;
     case Owner::point:
       break;
   }
@@ -71,6 +78,7 @@ std::string name_of(const QuantityRow& row, std::size_t index, const Network& ne
     case Owner::point:
     case Owner::structure:
     case Owner::coexistence:
+    case Owner::offsets:
       return row.suffix;
     case Owner::mode:
       return joined(row.suffix, std::to_string(index + 1));
@@ -105,6 +113,7 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
     case Owner::mode:
     case Owner::structure:
     case Owner::coexistence:
+    case Owner::offsets:
       break;
   }
   return row.unit;
@@ -132,6 +141,7 @@ bool is_owned_by_elements(Owner owner) {
 std::vector<std::size_t> owners(StandardOf of, const Network& network) {
   std::vector<std::size_t> result;
   const std::size_t count = of == StandardOf::coexistence ? owner_count(Owner::coexistence, network)
+                            : of == StandardOf::offsets   ? owner_count(Owner::offsets, network)
                             : of == StandardOf::point     ? 1
                             : of == StandardOf::masses    ? mechanics::coordinate_count(network)
                                                           : network.elements.size();
@@ -148,8 +158,8 @@ const QuantityRow* row_named(const std::string& name) {
   const QuantityRow* best = nullptr;
   for (const QuantityRow& row : quantity_table()) {
     const std::string_view suffix = row.suffix;
-    const bool stands_alone =
-        row.owner == Owner::point || row.owner == Owner::structure || row.owner == Owner::coexistence;
+    const bool stands_alone = row.owner == Owner::point || row.owner == Owner::structure ||
+                              row.owner == Owner::coexistence || row.owner == Owner::offsets;
     const bool is_own = stands_alone && name == suffix;
     const bool is_owned = !stands_alone && name.ends_with(joined("", row.suffix));
     if (!is_own && !is_owned) continue;
@@ -194,7 +204,7 @@ std::vector<Quantity> all_quantities(const Network& network) {
 std::vector<Quantity> standard_quantities(const Network& network) {
   std::vector<Quantity> result;
   for (const StandardOf of : {StandardOf::masses, StandardOf::springs, StandardOf::contacts,
-                              StandardOf::point, StandardOf::coexistence}) {
+                              StandardOf::point, StandardOf::coexistence, StandardOf::offsets}) {
     std::vector<const QuantityRow*> rows;
     for (const QuantityRow& row : quantity_table()) {
       if (row.standard.of == of) rows.push_back(&row);

@@ -41,6 +41,8 @@ enum class Measure {
   floquet_radius,
   coexisting,
   period_multiple,
+  unsettled,
+  continuum,
   energy_input,
   energy_balance,
   damping_energy,

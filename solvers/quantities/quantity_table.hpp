@@ -11,11 +11,12 @@ namespace frahm::periodic {
 // The owner of a quantity; `mass` is a mass or a signal, `contact` an element with one contact, `sliders` one
 // with several (iwan), `support` the ground or a prescribed node,
 // `structure` the damping of the structure as a whole, where there is one, `coexistence` the search for
-// several responses, where there may be.
-enum class Owner { mass, element, contact, sliders, point, mode, support, structure, coexistence };
+// several responses, where there may be, `offsets` the places of sliders (jenkins, iwan), where there are
+// any.
+enum class Owner { mass, element, contact, sliders, point, mode, support, structure, coexistence, offsets };
 
 // Whether the standard record of an atlas has the quantity, and for which of its owners.
-enum class StandardOf { none, masses, springs, contacts, point, coexistence };
+enum class StandardOf { none, masses, springs, contacts, point, coexistence, offsets };
 struct Standard {
   StandardOf of = StandardOf::none;
   int rank = 0;  // position among those of one owner, from 1

@@ -238,6 +238,14 @@ double period_multiple(const Measured& m, const Asked&) {
   return m.multiple;
 }
 
+double unsettled(const Measured& m, const Asked&) {
+  return m.unsettled;
+}
+
+double continuum(const Measured& m, const Asked&) {
+  return m.free_sliders;
+}
+
 double floquet_radius(const Measured& m, const Asked&) {
   return m.floquet_radius;
 }

@@ -30,6 +30,8 @@ double status(const Measured&, const Asked&);
 double floquet_radius(const Measured&, const Asked&);
 double coexisting(const Measured&, const Asked&);
 double period_multiple(const Measured&, const Asked&);
+double unsettled(const Measured&, const Asked&);
+double continuum(const Measured&, const Asked&);
 double energy_input(const Measured&, const Asked&);
 double energy_balance(const Measured&, const Asked&);
 bool is_balanced(const Measured&);  // to 1e-9 of these energies and the rounding of the work

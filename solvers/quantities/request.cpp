@@ -1,6 +1,7 @@
 #include "solvers/quantities/request.hpp"
 
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "solvers/quantities/quantity_derivatives.hpp"
 
 namespace frahm::periodic {
@@ -85,9 +86,12 @@ bool is_asked(const TraceUse& use, const Candidate& candidate, const Extremes& f
          (use.least && is_extreme(Side::least));
 }
 
-void tell_missing(const Request& request, Status status, std::span<double> out) {
-  for (std::size_t i = 0; i < request.quantities.size(); ++i)
-    out[i] = missing_value(request.quantities[i].quantity.measure, status);
+void tell_missing(const Request& request, Status status, int unsettled, std::span<double> out) {
+  for (std::size_t i = 0; i < request.quantities.size(); ++i) {
+    const Measure measure = request.quantities[i].quantity.measure;
+    const bool is_counted = measure == Measure::unsettled && status == Status::not_periodic;
+    out[i] = is_counted ? unsettled : missing_value(measure, status);
+  }
 }
 
 void tell_derivatives(const Request& request, const Measured& measured, MeasuredDerivative& by,

@@ -28,7 +28,7 @@ Request derivatives_of(const std::vector<Quantity>& quantities, const mechanics:
 // out[i] is quantity i. Quantities that only a law with sticking has are missing for a law without.
 void tell_values(const Request& request, const Measured& measured, std::span<double> out);
 // For a point without a response.
-void tell_missing(const Request& request, Status status, std::span<double> out);
+void tell_missing(const Request& request, Status status, int unsettled, std::span<double> out);
 // out[i] is the derivative of quantity i; where there is none, NaN, and why_none[i] says why.
 void tell_derivatives(const Request& request, const Measured& measured, MeasuredDerivative& by,
                       std::span<double> out, std::span<const char*> why_none);

@@ -88,6 +88,11 @@ class DividedOrders final : public ResponseSolver {
     multiple_ = solver_->multiple();
   }
   int multiple() const override { return whole_periods(multiple_); }
+  std::vector<std::complex<double>> multipliers() override {
+    std::vector<std::complex<double>> result = solver_->multipliers();
+    for (std::complex<double>& each : result) each = std::pow(each, divisor_ / std::gcd(multiple_, divisor_));
+    return result;
+  }
 
   void quantities(std::span<double> out) override {
     of_part_.resize(solved_);

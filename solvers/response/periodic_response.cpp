@@ -67,6 +67,9 @@ std::vector<KnownOrbit> PeriodicResponse::known() const {
 void PeriodicResponse::tell(int which) {
   solver_->tell(which);
 }
+std::vector<std::complex<double>> PeriodicResponse::multipliers() {
+  return solver_->multipliers();
+}
 void PeriodicResponse::quantities(std::span<double> out) {
   solver_->quantities(out);
 }

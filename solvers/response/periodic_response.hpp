@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <functional>
 #include <memory>
 #include <span>
@@ -67,6 +68,10 @@ class PeriodicResponse {
   // (not_periodic), one of summary.motions that did not settle, over 64 periods of the excitation: it has
   // quantities, but no gradient.
   void tell(int which);
+
+  // The Floquet multipliers of the response that is told, over its own period, the largest first; those of
+  // the rest positions of contacts that never slide are 0. None where it has none (grazing), or no response.
+  std::vector<std::complex<double>> multipliers();
 
   // The quantities given to the constructor, in their order; NaN (counts -1, flags 0) where the response is
   // unbounded or failed. `out` has one entry for each.

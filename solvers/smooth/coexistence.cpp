@@ -17,10 +17,13 @@ void Coexistence::find(const mechanics::LinearSystem& system, const mechanics::N
   values_ = &values;
   stable_.clear();
   found_unstable_ = false;
+  unsettled_ = 0;
   passages_ = newton_iterations_ = 0;
   for (const Earlier& earlier : before_) find_near(earlier.z, earlier.multiple);
   const Eigen::VectorXd response = sliding_response();
-  for (int start = 0; start < wanted_.starts; ++start) follow(start_state(start, response));
+  for (int start = 0; start < wanted_.starts; ++start)
+    unsettled_ += follow(start_state(start, response)) ? 0 : 1;
+  add_mirrors();
   before_.clear();
   for (const Found& found : stable_) before_.push_back({found.orbit.z, found.orbit.multiple});
   tell(orbit);
@@ -28,19 +31,45 @@ void Coexistence::find(const mechanics::LinearSystem& system, const mechanics::N
 
 // Follows the motion until an orbit is found near it. A period is followed in a twentieth of the time that
 // one with its sensitivities takes, so that Newton's method waits longer than for exact laws.
-void Coexistence::follow(Eigen::VectorXd z) {
+bool Coexistence::follow(Eigen::VectorXd z) {
   constexpr int kTries[] = {12, 36, 108, 324};  // periods
   constexpr double kNear = 0.02, kThere = 1e-3;
   std::vector<Eigen::VectorXd> trail{z};
   int periods = 0;
   for (const int at : kTries) {
     for (; periods < at; ++periods) {
-      if (!integrator_.follow(z, 0.0, equation_.period(), scale_of(z))) return;
+      if (!integrator_.follow(z, 0.0, equation_.period(), scale_of(z))) return false;
       ++passages_;
       trail.push_back(z);
-      if (is_known(z, kThere)) return;
+      if (is_known(z, kThere)) return true;
     }
-    if (find_near(z, likely_multiple(trail)) && is_known(z, kNear)) return;
+    if (find_near(z, likely_multiple(trail)) && is_known(z, kNear)) return true;
+  }
+  return false;
+}
+
+// The mirror image -z(t + T/2) of each that is not its own, where the forcing is odd and it is an orbit too.
+void Coexistence::add_mirrors() {
+  constexpr double kSame = 1e-5;  // as of keep()
+  if (!system_->odd_forcing) return;
+  const std::size_t count = stable_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const int multiple = stable_[i].orbit.multiple;
+    Eigen::VectorXd z = stable_[i].returns.front();
+    if (!integrator_.follow(z, 0.0, 0.5 * equation_.period(), scale_of(z))) continue;
+    ++passages_;
+    const Eigen::VectorXd mirrored = -z;
+    if (is_known(mirrored, kSame)) continue;
+    z = mirrored;
+    bool is_followed = true;
+    for (int m = 0; m < multiple && is_followed; ++m, ++passages_)
+      is_followed = integrator_.follow(z, 0.0, equation_.period(), scale_of(z));
+    if (!is_followed || equation_.energy_norm(z - mirrored) > kSame * equation_.energy_scale(mirrored))
+      continue;
+    const std::size_t before = stable_.size();
+    find_near(mirrored, multiple);
+    // The same peak, so that of the pair the one that was found first counts as the larger.
+    if (stable_.size() > before) stable_.back().peak = stable_[i].peak;
   }
 }
 
@@ -165,15 +194,23 @@ void Coexistence::tell(Orbit& orbit) {
                              : periodic::none_stable(wanted_.starts, wanted_.most_multiple, found_unstable_);
     orbit.residual = kNone;
     orbit.coexisting = 0;
+    orbit.unsettled = unsettled_;
   } else {
     const bool largest = wanted_.show == periodic::OrbitsWanted::Show::largest;
-    orbit = std::ranges::max_element(stable_, {}, [&](const Found& found) {
-              return largest ? found.peak : -found.peak;
-            })->orbit;
-    orbit.coexisting = static_cast<int>(stable_.size());
-    if (orbit.coexisting > 1) orbit.status = Status::several;
-    if (orbit.multiple > 1) take_for_one(orbit.multiple);
+    const auto told = std::ranges::max_element(
+        stable_, {}, [&](const Found& found) { return largest ? found.peak : -found.peak; });
+    return tell(static_cast<std::size_t>(told - stable_.begin()), orbit);
   }
+  orbit.passages = passages_;
+  orbit.newton_iterations = newton_iterations_;
+}
+
+void Coexistence::tell(std::size_t which, Orbit& orbit) {
+  orbit = stable_[which].orbit;
+  orbit.coexisting = static_cast<int>(stable_.size());
+  orbit.unsettled = unsettled_;
+  if (orbit.coexisting > 1) orbit.status = Status::several;
+  if (orbit.multiple > 1) take_for_one(orbit.multiple);
   orbit.passages = passages_;
   orbit.newton_iterations = newton_iterations_;
 }

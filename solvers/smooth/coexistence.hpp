@@ -23,6 +23,8 @@ class Coexistence {
   // Finds the orbit to be told, its section at omega t = 0; the equation, which is set to `system` and
   // `values`, is then set to the orbit's multiple of the period.
   void find(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values, Orbit& orbit);
+  // Another one of those found; the equation is set to `system` before.
+  void tell(std::size_t which, Orbit& orbit);
 
  private:
   struct Found {
@@ -36,7 +38,8 @@ class Coexistence {
     int multiple = 1;
   };
 
-  void follow(Eigen::VectorXd z);
+  bool follow(Eigen::VectorXd z);  // whether it settled
+  void add_mirrors();
   int likely_multiple(const std::vector<Eigen::VectorXd>& trail) const;
   bool find_near(const Eigen::VectorXd& z, int multiple);
   bool keep(Orbit& orbit, double peak);
@@ -58,6 +61,7 @@ class Coexistence {
   std::vector<Earlier> before_;  // of the point before
   std::vector<Found> stable_;    // of this point
   bool found_unstable_ = false;
+  int unsettled_ = 0;  // starts
   int passages_ = 0, newton_iterations_ = 0;
 };
 

@@ -20,8 +20,8 @@ void Observables::set_system(const mechanics::LinearSystem& system) {
   if (request_.needs.modes) periodic::modes_of(system, measured_.natural_frequency, measured_.modal_damping);
 }
 
-void Observables::fill_missing(Status status, std::span<double> out) const {
-  periodic::tell_missing(request_, status, out);
+void Observables::fill_missing(Status status, int unsettled, std::span<double> out) const {
+  periodic::tell_missing(request_, status, unsettled, out);
 }
 
 void Observables::evaluate(const Orbit& orbit, const mechanics::LinearSystem& system, std::span<double> out) {
@@ -41,6 +41,7 @@ void Observables::measure(const Orbit& orbit, const mechanics::LinearSystem& sys
   measured_.residual = orbit.residual;
   measured_.multiple = orbit.multiple;
   measured_.coexisting = orbit.coexisting;
+  measured_.unsettled = orbit.unsettled;
   if (request_.needs.stability) measured_.floquet_radius = orbit.floquet_radius();
   measured_.newton_iterations = orbit.newton_iterations;
   measured_.static_norm = equation_.static_norm();

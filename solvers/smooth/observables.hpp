@@ -27,7 +27,7 @@ class Observables {
   // regimes not_computed: a smooth law creeps where the exact one sticks.
   void evaluate(const Orbit& orbit, const mechanics::LinearSystem& system, std::span<double> out);
   // For a point without a response.
-  void fill_missing(Status status, std::span<double> out) const;
+  void fill_missing(Status status, int unsettled, std::span<double> out) const;
 
  private:
   void measure(const Orbit& orbit, const mechanics::LinearSystem& system);

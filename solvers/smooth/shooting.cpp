@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/solve.hpp"
 #include "solvers/orbits/spectral_radius.hpp"
@@ -33,6 +34,13 @@ std::string too_inaccurate(double error) {
 double Orbit::floquet_radius() const {
   const double radius = periodic::spectral_radius(passage.tangent);
   return half_period ? radius * radius : radius;
+}
+
+std::vector<std::complex<double>> Orbit::multipliers() const {
+  Eigen::VectorXcd values = algebra::eigenvalues(passage.tangent);
+  if (half_period) values = values.array().square();
+  std::ranges::sort(values, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  return {values.begin(), values.end()};
 }
 
 void Shooting::find(const Eigen::VectorXd& scale, Orbit& orbit) {

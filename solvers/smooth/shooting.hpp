@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <string>
+#include <vector>
 
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/smooth/integrator.hpp"
@@ -24,11 +26,14 @@ struct Orbit {
   int passages = 0;
   int multiple = 1;    // of the forcing's period, that the orbit takes
   int coexisting = 1;  // stable orbits that were found
+  int unsettled = 0;   // starts of the search whose motions came to none
 
   bool is_found() const { return periodic::has_response(status); }
   double sign() const { return half_period ? -1.0 : 1.0; }
   // Largest modulus of the Floquet multipliers of the full period.
   double floquet_radius() const;
+  // All of them, the largest first.
+  std::vector<std::complex<double>> multipliers() const;
 };
 
 struct ShootingOptions {

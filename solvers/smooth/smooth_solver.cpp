@@ -98,12 +98,17 @@ class SmoothSolver final : public periodic::ResponseSolver {
     coexistence_.forget();
   }
   const periodic::ResponseSummary& solve() override;
+  void tell(int which) override;
+  int multiple() const override { return orbit_.multiple; }
+  std::vector<std::complex<double>> multipliers() override {
+    return orbit_.is_found() ? orbit_.multipliers() : std::vector<std::complex<double>>{};
+  }
 
   void quantities(std::span<double> out) override {
     if (orbit_.is_found())
       observables_.evaluate(orbit_, told(), out);
     else
-      observables_.fill_missing(orbit_.status, out);
+      observables_.fill_missing(orbit_.status, orbit_.unsettled, out);
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues>, std::span<double> out) override {
@@ -154,6 +159,7 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
   orbit_.newton_iterations = orbit_.passages = 0;
   orbit_.half_period = system_.odd_response;
   orbit_.multiple = orbit_.coexisting = 1;
+  orbit_.unsettled = 0;
   if (system_.monotone && periodic::is_unbounded(system_, undamped_modes_)) {
     orbit_.status = Status::unbounded;
     orbit_.reason = periodic::kUnbounded;
@@ -174,6 +180,13 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
               .coexisting = orbit_.coexisting,
               .half_period = orbit_.half_period};
   return summary_;
+}
+
+void SmoothSolver::tell(int which) {
+  if (system_.monotone || !orbit_.is_found()) return;
+  equation_.set(system_, values_);  // after an orbit of several periods
+  coexistence_.tell(static_cast<std::size_t>(which), orbit_);
+  if (orbit_.multiple > 1) longer_ = periodic::over_multiple(system_, orbit_.multiple);
 }
 
 void SmoothSolver::search() {

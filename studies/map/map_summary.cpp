@@ -50,6 +50,22 @@ std::string place_text(const results::Axis& axis, std::uint64_t index) {
 
 }  // namespace
 
+PointsAboveZero points_above_zero(const results::MapReader& map, const std::string& variable) {
+  const auto& variables = map.layout().variables;
+  const auto found = std::ranges::find(variables, variable, &results::Variable::name);
+  PointsAboveZero result;
+  if (found == variables.end()) return result;
+  for_each_chunk(map.layout(), [&](const MapBox& box) {
+    for (const double value :
+         map.read(static_cast<std::size_t>(found - variables.begin()), box.start, box.count)) {
+      if (!(value > 0.0)) continue;
+      ++result.points;
+      result.sum += static_cast<std::uint64_t>(value);
+    }
+  });
+  return result;
+}
+
 std::uint64_t FlagCounts::of(const std::string& meaning) const {
   const auto found = std::ranges::find(counts, meaning, &std::pair<std::string, std::uint64_t>::first);
   return found == counts.end() ? 0 : found->second;

@@ -11,6 +11,13 @@
 
 namespace frahm::studies {
 
+// A count over a map: at how many points it is above 0, and its sum there.
+struct PointsAboveZero {
+  std::uint64_t points = 0, sum = 0;
+};
+// Nothing where the map does not have the variable.
+PointsAboveZero points_above_zero(const results::MapReader& map, const std::string& variable);
+
 // How often each value of a flag occurs on a map, those that do not occur left out.
 struct FlagCounts {
   std::string variable;

@@ -37,11 +37,20 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const Outp
   return found;
 }
 
+// What says that a response is not all there is.
+bool is_always_recorded(periodic::Measure measure) {
+  return measure == periodic::Measure::unsettled || measure == periodic::Measure::continuum;
+}
+
 std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   std::vector<periodic::Quantity> result;
   for (const OutputChoice::Name& name : study.map()->output.names) {
     for (const periodic::Quantity& quantity : quantities_called(study, name))
       if (std::find(result.begin(), result.end(), quantity) == result.end()) result.push_back(quantity);
+  }
+  for (const periodic::Quantity& quantity : periodic::all_quantities(study.network)) {
+    const bool is_listed = std::find(result.begin(), result.end(), quantity) != result.end();
+    if (!is_listed && is_always_recorded(quantity.measure)) result.push_back(quantity);
   }
   return result;
 }

@@ -155,6 +155,8 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
       ->type_name("fastest|general")
       ->check(among({"fastest", "general"}))
       ->take_last();
+  point->add_flag("--responses", options.responses,
+                  "every stable response that was found: state at omega t = 0, peaks, multipliers");
   point->add_flag("--json", options.json, "the report as one JSON object");
   point->add_flag("--all", options.all, "every quantity and mode, of a large system too");
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });

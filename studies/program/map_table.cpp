@@ -44,6 +44,24 @@ std::string failures_text(const std::vector<FlagCounts>& flags) {
   return text.empty() ? "some points failed" : text;
 }
 
+// What the responses of the map leave open.
+void print_what_else(const MapPlan& plan, const results::MapReader& map, std::uint64_t points,
+                     std::ostream& out) {
+  if (const PointsAboveZero open = points_above_zero(map, "unsettled"); open.points > 0) {
+    const periodic::OrbitsWanted wanted = plan.study.orbits_wanted();
+    fmt::print(out,
+               "{:<22} at {} of {} points {} of {} starts came to no stable response of up to {} periods: "
+               "others may exist\n",
+               "unsettled", open.points, points, open.sum,
+               open.points * static_cast<std::uint64_t>(wanted.starts), wanted.most_multiple);
+  }
+  if (const PointsAboveZero open = points_above_zero(map, "continuum"); open.points > 0)
+    fmt::print(out,
+               "{:<22} {} of {} points show one of a continuum of responses, as sliders of jenkins or iwan "
+               "elements never slip there: that with z(T/2) = -z(0), else of least energy\n",
+               "continuum", open.points, points);
+}
+
 // The lines are those of provenance(): "<point as --at takes it>: <reason>".
 void print_failures(const MapPlan& plan, const std::filesystem::path& study, const std::string& lines,
                     const std::string& failures) {
@@ -77,6 +95,7 @@ int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
   print_scatter(plan, file, out);
   const std::vector<FlagCounts> flags = count_flags(map);
   print_flags(flags, points, out);
+  print_what_else(plan, map, points, out);
   if (effort) print_effort(plan.study, *effort, out);
   if (effort && plan.grown_from) {
     fmt::print(out, "{:<22} {} points of {}, {} computed\n", "reused", effort->reused, plan.grown_from->file,

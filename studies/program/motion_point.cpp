@@ -70,6 +70,7 @@ void refuse_options_of_orbits(const PointOptions& options) {
                      option);
   };
   if (options.gradient) refuse("--gradient");
+  if (options.responses) refuse("--responses");
   if (options.json) refuse("--json");
 }
 

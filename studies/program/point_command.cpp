@@ -56,8 +56,9 @@ int point_command(const PointOptions& options, std::ostream& out) {
   std::vector<double> parameters = parameters_at(study, options.at);
   set_crank_orders_at(study, parameters);
   if (options.history) check_output_is_not_input(*options.history, options.study);
-  const PointReport report = tell_point(study, parameters, path_of(study, options.path),
-                                        options.history ? intervals_a_period + 1 : 0, options.gradient);
+  const PointReport report =
+      tell_point(study, parameters, path_of(study, options.path),
+                 options.history ? intervals_a_period + 1 : 0, options.gradient, options.responses);
   options.json ? print_point_json(study, report, out)
                : print_point(study, report, options.all ? Listing::whole : Listing::excerpt, out);
   if (report.status == "failed" || report.status == "not_periodic") return exit_code::some_failed;

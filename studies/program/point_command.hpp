@@ -20,6 +20,7 @@ struct PointOptions {
   std::optional<std::filesystem::path> history = {};
   std::string path = "fastest";  // or "general": every orbit by shooting
   bool gradient = false;         // derivatives too: exact, by differences, and their deviation
+  bool responses = false;        // every stable response that was found too
   bool json = false;             // the report as one JSON object
   bool all = false;              // every quantity and mode, of a large system too
 };

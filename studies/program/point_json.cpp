@@ -1,4 +1,5 @@
 #include <cmath>
+#include <complex>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -67,6 +68,29 @@ Json gradient_json(const PointGradient& gradient) {
   return {{"reason", gradient.reason}, {"by", by}};
 }
 
+Json numbers_json(const std::vector<FoundResponse::Number>& numbers) {
+  Json json = Json::object();
+  for (const FoundResponse::Number& each : numbers)
+    json[each.name] = {{"value", number_json(each.value)}, {"unit", each.unit}};
+  return json;
+}
+
+Json responses_json(const std::vector<FoundResponse>& responses) {
+  Json list = Json::array();
+  for (const FoundResponse& each : responses) {
+    Json multipliers = Json::array();
+    for (const std::complex<double>& value : each.multipliers)
+      multipliers.push_back({number_json(value.real()), number_json(value.imag())});
+    list.push_back({{"shown", each.is_shown},
+                    {"period_multiple", each.period_multiple},
+                    {"mirror_of", each.mirror_of ? Json(*each.mirror_of) : Json()},
+                    {"peaks", numbers_json(each.peaks)},
+                    {"multipliers", multipliers},
+                    {"state", numbers_json(each.state)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 void print_point_json(const Study& study, const PointReport& report, std::ostream& out) {
@@ -78,6 +102,7 @@ void print_point_json(const Study& study, const PointReport& report, std::ostrea
   json["reason"] = report.reason;
   json["residual"] = report.residual;
   json["why_no_error_bound"] = report.why_no_bound;
+  json["continuum"] = report.continuum;
   json["newton_iterations"] = report.newton_iterations;
   json["passages"] = report.passages;
   json["found_by"] = way_name(report.way);
@@ -89,6 +114,7 @@ void print_point_json(const Study& study, const PointReport& report, std::ostrea
     json["modes"]["sliding"] = modes_json(study, report.modes->sliding);
     json["modes"]["stuck"] = modes_json(study, report.modes->stuck);
   }
+  if (report.responses) json["responses"] = responses_json(*report.responses);
   if (report.gradient) json["gradient"] = gradient_json(*report.gradient);
   // A path need not be UTF-8, which JSON must be.
   out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

@@ -62,6 +62,20 @@ std::vector<mechanics::NetworkValues> values_on_way(const Study& study, std::spa
   return way;
 }
 
+// Sliders that never slip may have other offsets, with other motions.
+std::string continuum_text(std::span<const PointReport::QuantityValue> quantities,
+                           std::span<const double> values, bool half_period) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (quantities[i].description.name != "continuum" || !(values[i] > 0.0)) continue;
+    return fmt::format(
+        "{:.0f} slider{} of jenkins or iwan elements never slip{}, and may have other offsets; shown is the "
+        "motion {}",
+        values[i], values[i] > 1.0 ? "s" : "", values[i] > 1.0 ? "" : "s",
+        half_period ? "with z(T/2) = -z(0)" : "of least energy");
+  }
+  return "";
+}
+
 // False where the values of the last point cannot be set; the report has the reason.
 bool solve(periodic::PeriodicResponse& response, std::span<const mechanics::NetworkValues> way,
            PointReport& report) {
@@ -80,6 +94,7 @@ bool solve(periodic::PeriodicResponse& response, std::span<const mechanics::Netw
   report.residual = summary.residual;
   report.newton_iterations = summary.newton_iterations;
   report.passages = summary.passages;
+  report.continuum = continuum_text(report.quantities, found, summary.half_period);
   for (std::size_t i = 0; i < found.size(); ++i) report.quantities[i].value = found[i];
   return true;
 }
@@ -162,7 +177,7 @@ std::string why_no_bound(const mechanics::Network& network, const PointReport& r
 }  // namespace
 
 PointReport tell_point(const Study& study, std::vector<double> parameters, periodic::Path path,
-                       std::size_t history_samples, bool gradient) {
+                       std::size_t history_samples, bool gradient, bool responses) {
   PointReport report;
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
@@ -184,6 +199,7 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, perio
   report.why_no_bound = why_no_bound(study.network, report);
   if (is_found(report)) add_motion(response, way, history_samples, report);
   if (gradient) report.gradient = gradient_at(study, parameters);
+  if (responses) report.responses = found_responses(study, path, way);
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include "solvers/response/periodic_response.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/point_gradient.hpp"
+#include "studies/program/point_responses.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/study.hpp"
 
@@ -39,15 +40,18 @@ struct PointReport {
   std::optional<ModesAtPoint> modes;           // absent for invalid matrices
   std::optional<periodic::History> history;    // if asked for and there is a response
   std::optional<PointGradient> gradient;       // if asked for
+  // If the response is one of a continuum, that and by which rule it was chosen; else empty.
+  std::string continuum;
+  std::optional<std::vector<FoundResponse>> responses;  // if asked for
 };
 
 // Solves a point from nothing known, as a map does. parameters: SI values of all parameters, complete.
 // path: the ways that are tried.
 // history_samples: of the time history, both ends of the period included; 0: none is wanted. gradient: exact
-// derivatives, beside differences, are wanted.
+// derivatives, beside differences, are wanted. responses: every one that was found is.
 // Throws StudyError for a network that cannot move at any values.
 PointReport tell_point(const Study& study, std::vector<double> parameters, periodic::Path path,
-                       std::size_t history_samples, bool gradient);
+                       std::size_t history_samples, bool gradient, bool responses = false);
 
 // "event phases" or "shooting".
 const char* way_name(periodic::Way way);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "solvers/quantities/quantity_table.hpp"
@@ -37,6 +38,8 @@ void print_heading(const Study& study, const PointReport& report, std::ostream& 
     fmt::print(out, " on the phases of its events; proved that there are no others\n");
   else
     fmt::print(out, ", {} passages of the flow\n", report.passages);
+  if (!report.continuum.empty())
+    fmt::print(out, "one of a continuum: {}; the error bound is of this one\n", report.continuum);
   if (!report.why_no_bound.empty())
     fmt::print(out, "no error bound: {}; how many digits are right is not known\n", report.why_no_bound);
   fmt::print(out, "\n");
@@ -123,6 +126,38 @@ void print_gradient(const PointGradient& gradient, std::ostream& out) {
   }
 }
 
+std::string multiplier_text(const std::complex<double>& value) {
+  const double size = std::abs(value);
+  if (std::abs(value.imag()) <= 1e-12 * size) return fmt::format("{:.10g}", value.real());
+  return fmt::format("{:.10g}{:+.10g}i", value.real(), value.imag());
+}
+
+void print_numbers(const std::vector<FoundResponse::Number>& numbers, std::ostream& out) {
+  for (const FoundResponse::Number& each : numbers)
+    fmt::print(out, "   {:<28}{:>18} {}\n", each.name, fmt::format("{:.10g}", each.value),
+               is_pure_number(each.unit) ? "" : each.unit);
+}
+
+void print_responses(const std::vector<FoundResponse>& responses, std::ostream& out) {
+  fmt::print(out, "\nStable responses that were found: {}\n", responses.size());
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const FoundResponse& each = responses[i];
+    fmt::print(out, "\n{}  of {} period{} of the excitation", i + 1, each.period_multiple,
+               each.period_multiple > 1 ? "s" : "");
+    if (each.mirror_of)
+      fmt::print(out, ", the mirror image of {}: x(t) = -x_{}(t + T/2)", *each.mirror_of + 1,
+                 *each.mirror_of + 1);
+    fmt::print(out, "{}\n", each.is_shown ? ", shown above" : "");
+    print_numbers(each.peaks, out);
+    fmt::print(out, "   multipliers");
+    for (const std::complex<double>& value : each.multipliers)
+      fmt::print(out, "  {}", multiplier_text(value));
+    fmt::print(out, "{}\n   state at omega t = 0\n",
+               each.multipliers.empty() ? "  none: an event only just happens" : "");
+    print_numbers(each.state, out);
+  }
+}
+
 }  // namespace
 
 void print_point(const Study& study, const PointReport& report, Listing listing, std::ostream& out) {
@@ -133,6 +168,7 @@ void print_point(const Study& study, const PointReport& report, Listing listing,
     fmt::print(out, "\n");
     print_modes(study, *report.modes, listing, out);
   }
+  if (report.responses) print_responses(*report.responses, out);
   if (report.gradient) print_gradient(*report.gradient, out);
 }
 

@@ -40,6 +40,11 @@ bool is_shown_by_default(const std::string& name, const std::optional<Study>& st
   return quantity ? periodic::is_shown(*quantity, study->network) : periodic::is_shown(name);
 }
 
+// What a page says of a map, whatever else it shows: that its responses are not all there may be.
+bool is_always_shown(const std::string& name) {
+  return name == "unsettled" || name == "continuum";
+}
+
 // All recorded quantities if none of them is shown by default.
 std::vector<std::string> default_quantities(const results::MapLayout& layout,
                                             const std::optional<Study>& study) {
@@ -49,7 +54,7 @@ std::vector<std::string> default_quantities(const results::MapLayout& layout,
     all.push_back(variable.name);
     if (!is_shown_by_default(variable.name, study)) continue;
     shown.push_back(variable.name);
-    any_number = any_number || variable.type != results::Type::flag;
+    any_number = any_number || (variable.type != results::Type::flag && !is_always_shown(variable.name));
   }
   return any_number ? shown : all;
 }
@@ -111,14 +116,18 @@ std::vector<std::string> chosen_quantities(const std::vector<std::string>& asked
   return names;
 }
 
-// Those, and what a profile is drawn from.
+// Those, what is always shown, and what a profile is drawn from.
 std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,
                                           const results::MapLayout& layout,
                                           const std::optional<Study>& study) {
   std::vector<std::string> names = chosen_quantities(asked, layout, study);
-  if (!study || !study->sweep() || !study->sweep()->profile) return names;
-  for (const std::string& name : profile_quantities(*study, *study->sweep()->profile, layout))
+  const auto add = [&names](const std::string& name) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const results::Variable& variable : layout.variables)
+    if (is_always_shown(variable.name)) add(variable.name);
+  if (!study || !study->sweep() || !study->sweep()->profile) return names;
+  for (const std::string& name : profile_quantities(*study, *study->sweep()->profile, layout)) add(name);
   return names;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <complex>
 #include <optional>
 
 #include "studies/program/point_command.hpp"
@@ -88,6 +89,27 @@ py::dict parameter_values(const PointReport& report) {
   return parameters;
 }
 
+py::list found_numbers(const std::vector<studies::FoundResponse::Number>& numbers) {
+  py::list list;
+  for (const auto& each : numbers) list.append(py::make_tuple(each.name, each.value, each.unit));
+  return list;
+}
+
+py::object responses_of(const PointReport& report) {
+  if (!report.responses) return py::none();
+  py::list list;
+  for (const studies::FoundResponse& each : *report.responses) {
+    py::list multipliers;
+    for (const std::complex<double>& value : each.multipliers)
+      multipliers.append(
+          py::reinterpret_steal<py::object>(PyComplex_FromDoubles(value.real(), value.imag())));
+    list.append(py::make_tuple(each.is_shown, each.period_multiple,
+                               each.mirror_of ? py::object(py::int_(*each.mirror_of)) : py::none(),
+                               found_numbers(each.peaks), multipliers, found_numbers(each.state)));
+  }
+  return list;
+}
+
 struct FoundPoint {
   PointReport report;
   std::optional<PointGradient> gradient;
@@ -95,8 +117,9 @@ struct FoundPoint {
 
 // at: name=value each.  samples: of the history, both ends of the period included; 0: none.
 FoundPoint found_point(const Study& study, std::vector<double> parameters, const std::string& path,
-                       std::size_t samples, bool gradient) {
-  FoundPoint found{studies::tell_point(study, parameters, studies::path_of(study, path), samples, false), {}};
+                       std::size_t samples, bool gradient, bool responses) {
+  FoundPoint found{
+      studies::tell_point(study, parameters, studies::path_of(study, path), samples, false, responses), {}};
   if (!gradient) return found;
   const bool has_values = found.report.status != "failed" && found.report.status != "not_computed";
   study.parameters.complete<double>(parameters);
@@ -106,14 +129,14 @@ FoundPoint found_point(const Study& study, std::vector<double> parameters, const
 }
 
 py::dict point(const LoadedStudy& loaded, const std::vector<std::string>& at, const std::string& path,
-               std::size_t samples, bool gradient) {
+               std::size_t samples, bool gradient, bool responses) {
   Study study = loaded.study;
   studies::require_responses(study);
   std::vector<double> parameters = studies::parameters_at(study, at, "point()");
   studies::set_crank_orders_at(study, parameters);
   const FoundPoint found = [&] {
     const py::gil_scoped_release free;
-    return found_point(study, std::move(parameters), path, samples, gradient);
+    return found_point(study, std::move(parameters), path, samples, gradient, responses);
   }();
   const PointReport& report = found.report;
   py::dict result;
@@ -121,6 +144,8 @@ py::dict point(const LoadedStudy& loaded, const std::vector<std::string>& at, co
   result["reason"] = report.reason;
   result["residual"] = report.residual;
   result["why_no_error_bound"] = report.why_no_bound;
+  result["continuum"] = report.continuum;
+  result["responses"] = responses_of(report);
   result["newton_iterations"] = report.newton_iterations;
   result["found_by"] = studies::way_name(report.way);
   result["parameters"] = parameter_values(report);
@@ -198,7 +223,9 @@ py::tuple rows(const LoadedStudy& loaded, const std::vector<std::string>& at, co
 }  // namespace
 
 void add_responses(py::class_<LoadedStudy>& study) {
-  study.def("point", point, py::arg("at"), py::arg("path"), py::arg("samples"), py::arg("gradient"))
+  study
+      .def("point", point, py::arg("at"), py::arg("path"), py::arg("samples"), py::arg("gradient"),
+           py::arg("responses"))
       .def("in_usual_unit", in_usual_unit, py::arg("name"), py::arg("text"))
       .def("rows", rows, py::arg("at"), py::arg("axes"), py::arg("names"), py::arg("threads"));
 }

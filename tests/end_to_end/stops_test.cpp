@@ -444,7 +444,134 @@ TEST_CASE("where no multiple that is tried has a stable orbit, the point is not 
   const Map map = runs::read_map(folder / "map.h5");
   CHECK(map["status"] == std::vector<double>{kOk, kNotPeriodic, kNotPeriodic, kNotPeriodic});
   CHECK(map["coexisting"] == std::vector<double>{1, -1, -1, -1});
+  CHECK(map["unsettled"] == std::vector<double>{0, 8, 8, 8});  // recorded though it is not listed
+  CHECK_THAT(outcome.out,
+             Catch::Contains("at 3 of 4 points 24 of 24 starts came to no stable response of up to 1"));
   CHECK(std::isnan(map["main_peak"][1]));
+}
+
+// Below F/k_t the slider is a spring: x = 0.3/|1.5 - r^2 + 0.1 i r|.
+TEST_CASE("where a slider never slips, file, run and point say that the response is one of a continuum") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", R"([study]
+schema = 1
+kind = "sweep"
+units = "dimensionless"
+[parameters]
+r = 1
+F = 1
+[[mass]]
+name = "x"
+mass = 1
+[[element]]
+name = "spring"
+type = "spring"
+between = ["ground", "x"]
+stiffness = 1
+[[element]]
+name = "damper"
+type = "damper"
+between = ["ground", "x"]
+damping = 0.1
+[[element]]
+name = "slider"
+type = "jenkins"
+between = ["ground", "x"]
+stiffness = 0.5
+force = "F"
+[excitation]
+frequency = "r"
+[[excitation.force]]
+on = "x"
+amplitude = 0.3
+[[axis]]
+parameter = "F"
+values = [0.1, 1]
+[output]
+quantities = ["x_peak"]
+)");
+  const auto outcome = runs::frahm({"run", study, "-o", folder / "map.h5"});
+  CHECK(outcome.code == 0);
+  CHECK_THAT(outcome.out, Catch::Contains("1 of 2 points show one of a continuum of responses"));
+  const Map map = runs::read_map(folder / "map.h5");
+  CHECK(map["continuum"] == std::vector<double>{0, 1});
+  CHECK_THAT(map["x_peak"][1], WithinRel(0.3 / std::abs(Complex(0.5, 0.1)), kClosed));
+  const auto point = runs::frahm({"point", study});
+  CHECK_THAT(point.out,
+             Catch::Contains("one of a continuum: 1 slider of jenkins or iwan elements never slips") &&
+                 Catch::Contains("z(T/2) = -z(0); the error bound is of this one"));
+  CHECK_THAT(runs::frahm({"point", study, "--at", "F=0.1"}).out, !Catch::Contains("continuum: "));
+}
+
+// Between its folds the machine has two stable responses; the small one never touches the stops and is
+// linear: x = Re e^(i r tau)/(1 - r^2 + 0.1 i r), multipliers exp(-0.05 T) e^(+-i w T).
+TEST_CASE("point --responses lists every stable response with its state, peaks and multipliers") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", machine_on_stops("starts = 8\n", 3));
+  const auto outcome = runs::frahm({"point", study, "--at", "r=1.6", "--responses"});
+  CHECK(outcome.code == 0);
+  CHECK_THAT(outcome.out, Catch::Contains("Stable responses that were found: 2"));
+  CHECK_THAT(outcome.out, Catch::Contains("shown above"));
+  const auto json = runs::frahm({"point", study, "--at", "r=1.6", "--responses", "--json"});
+  const Complex x = 1.0 / Complex(1.0 - 1.6 * 1.6, 0.16);
+  CHECK_THAT(json.out, Catch::Contains(fmt::format("{:.9f}", std::abs(x)).substr(0, 10)));
+  CHECK_THAT(json.out, Catch::Contains(fmt::format("{:.9f}", x.real()).substr(0, 10)));
+}
+
+// Figures of a Dormand-Prince integration of order 8 from event to event, closed by Newton's method: a motion
+// from -0.354874840919 to 0.351252539400, and its mirror image.
+TEST_CASE("point --responses lists both of a mirror pair, and says which is the image of which") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", R"([study]
+schema = 1
+kind = "sweep"
+units = "dimensionless"
+[parameters]
+r = 1.55
+[[mass]]
+name = "x"
+mass = 1
+[[element]]
+name = "spring"
+type = "spring"
+between = ["ground", "x"]
+stiffness = 1
+[[element]]
+name = "damper"
+type = "damper"
+between = ["ground", "x"]
+damping = 0.1
+[[element]]
+name = "stops"
+type = "gap"
+between = ["ground", "x"]
+clearance = 0.2
+stiffness = 20
+[excitation]
+frequency = "r"
+[[excitation.force]]
+on = "x"
+amplitude = 1
+[[axis]]
+parameter = "r"
+values = [1.55]
+[orbits]
+starts = 1
+)");
+  const auto text = runs::frahm({"point", study, "--responses"});
+  CHECK(text.code == 0);
+  CHECK_THAT(text.out, Catch::Contains("Stable responses that were found: 2"));
+  CHECK_THAT(text.out, Catch::Contains("the mirror image of 1: x(t) = -x_1(t + T/2)"));
+  for (const std::string form : {"", "--json"}) {
+    const std::string out = form.empty() ? text.out : runs::frahm({"point", study, "--responses", form}).out;
+    INFO(out);
+    // Displacement and velocity at omega t = 0 of either, and the peak of both.
+    for (const std::string figure : {"0.27292490", "0.51940410", "0.30096490", "-0.42873710", "0.35487484"})
+      CHECK_THAT(out, Catch::Contains(figure));
+    if (form.empty()) continue;
+    CHECK_THAT(out, Catch::Contains("\"mirror_of\": null") && Catch::Contains("\"mirror_of\": 0"));
+    CHECK_THAT(out, Catch::Contains("\"shown\": true") && Catch::Contains("\"shown\": false"));
+  }
 }
 
 // It loses 2 F/k of amplitude from each turning point to the next, and stays at the first within F_s/k.

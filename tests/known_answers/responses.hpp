@@ -13,10 +13,10 @@ namespace frahm::periodic {
 
 class Responses {
  public:
-  explicit Responses(const mechanics::Network& network)
+  explicit Responses(const mechanics::Network& network, const OrbitsWanted& wanted = {})
       : network_(network),
         quantities_(all_quantities(network)),
-        response_(network, quantities_),
+        response_(network, quantities_, Path::fastest, wanted),
         values_(quantities_.size(), std::numeric_limits<double>::quiet_NaN()) {}
 
   // From nothing known, unless `warm`.
@@ -26,6 +26,12 @@ class Responses {
     const ResponseSummary& summary = response_.solve();
     response_.quantities(values_);
     return summary;
+  }
+
+  // Another one of those that were found.
+  void tell(int which) {
+    response_.tell(which);
+    response_.quantities(values_);
   }
 
   // Only the frequency has changed.

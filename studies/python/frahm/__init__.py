@@ -17,7 +17,7 @@ from ._frahm import ResumeRefused, StudyError
 from .dataset import names, open
 from .estimate import Estimate
 from .identification import Identification
-from .point import Point
+from .point import FoundResponse, Point
 from .response import Response
 from .running import Result
 from .study import Study
@@ -25,6 +25,7 @@ from .tuning import Tuning
 
 __all__ = [
     "Estimate",
+    "FoundResponse",
     "Identification",
     "Point",
     "Response",

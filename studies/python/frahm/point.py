@@ -20,6 +20,19 @@ class Stretch:
 
 
 @dataclass(frozen=True)
+class FoundResponse:
+    """A stable response of a point, of several that may have been found."""
+
+    is_shown: bool  #: as the response of the point
+    period_multiple: int  #: periods of the excitation that it takes
+    mirror_of: Optional[int]  #: index of an earlier one, of which it is -x(t + T/2)
+    peaks: Mapping[str, float]  #: of masses and signals
+    multipliers: list[complex]  #: over its own period, the largest first; none where an event only just happens
+    state: Mapping[str, float]  #: at omega t = 0: of masses displacement and velocity, of some elements the force
+    units: Mapping[str, str]  #: of peaks and state
+
+
+@dataclass(frozen=True)
 class Point(Mapping[str, QuantityValue]):
     """The periodic response at one point: a mapping of its quantities.
 
@@ -31,6 +44,7 @@ class Point(Mapping[str, QuantityValue]):
     reason: str  #: why there is no response; else empty
     residual: float  #: of the periodic condition, relative
     why_no_error_bound: str  #: why it is not known how many digits are right; empty where `error_bound` is
+    continuum: str  #: if it is one of a continuum of responses: why, and which one; else empty
     newton_iterations: int
     found_by: str  #: "event phases" or "shooting"
     parameters: Mapping[str, tuple[float, str]]  #: value and unit of each number of the study
@@ -43,6 +57,7 @@ class Point(Mapping[str, QuantityValue]):
     #: read; NaN where there is none. None: not asked for.
     gradient: Optional[Mapping[str, Mapping[str, float]]]
     why_no_gradient: Mapping[str, str] = field(default_factory=dict)  #: of quantities; "" for all of them
+    responses: Optional[list[FoundResponse]] = None  #: every stable one that was found; None: not asked for
 
     @property
     def ok(self) -> bool:
@@ -63,6 +78,19 @@ class Point(Mapping[str, QuantityValue]):
         return f"<frahm.Point {self.status} at {at}; {len(self.quantities)} quantities>"
 
 
+def response_of(found: tuple) -> FoundResponse:
+    is_shown, multiple, mirror_of, peaks, multipliers, state = found
+    return FoundResponse(
+        is_shown,
+        multiple,
+        mirror_of,
+        {name: value for name, value, _ in peaks},
+        list(multipliers),
+        {name: value for name, value, _ in state},
+        {name: unit for name, _, unit in [*peaks, *state]},
+    )
+
+
 def point_of(found: Mapping[str, Any]) -> Point:
     """The point from what the compiled part found."""
     history, units = None, {name: unit for name, _, unit, _ in found["quantities"]}
@@ -80,6 +108,7 @@ def point_of(found: Mapping[str, Any]) -> Point:
         reason=found["reason"],
         residual=found["residual"],
         why_no_error_bound=found["why_no_error_bound"],
+        continuum=found["continuum"],
         newton_iterations=found["newton_iterations"],
         found_by=found["found_by"],
         parameters=found["parameters"],
@@ -90,4 +119,5 @@ def point_of(found: Mapping[str, Any]) -> Point:
         history=history,
         gradient=gradient,
         why_no_gradient=why_none,
+        responses=None if found["responses"] is None else [response_of(each) for each in found["responses"]],
     )

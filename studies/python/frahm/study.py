@@ -105,10 +105,11 @@ class Study:
         return {name: f"{meaning} [{unit}]" for name, unit, meaning in self._study.quantities()}
 
     def point(self, at: Mapping[str, Value] = MappingProxyType({}), /, *, gradient: bool = False,
-              history: Union[bool, int] = False, path: str = "fastest", **parameters: Value) -> Point:
+              responses: bool = False, history: Union[bool, int] = False, path: str = "fastest", **parameters: Value) -> Point:
         """The periodic response at one point, in full.
 
         parameters: the point; what it leaves out has the study's value. at: the same as a dictionary. gradient: the exact derivatives too.
+        responses: every stable response that was found too.
         history: the motion over a period, at 513 instants or as many as are given. path: "general" finds
         every orbit by shooting. A point without a response has a status and a reason, and is no error.
         """
@@ -119,7 +120,7 @@ class Study:
         if samples == 1:
             raise ValueError(f"history={history}: must be at least 2 instants")
         place = {**self._dictionary(Study.point, at), **parameters}
-        return point_of(self._study.point(assignments(place), path, samples, bool(gradient)))
+        return point_of(self._study.point(assignments(place), path, samples, bool(gradient), bool(responses)))
 
     def response(self, row: Optional[str] = None, values: Optional[Sequence[Value]] = None, at: Mapping[str, Any] = MappingProxyType({}),
                  /, *, quantities: Union[str, Sequence[str], None] = None, threads: int = 0,

@@ -122,6 +122,59 @@ class Points(unittest.TestCase):
         self.assertTrue(math.isnan(undamped["error_bound"]))
         self.assertIn("nothing damps", undamped.why_no_error_bound)
 
+    def test_every_stable_response_is_told_with_its_state_and_multipliers(self):
+        point = frahm.Study.from_dict({
+            "study": {"schema": 1, "kind": "sweep", "units": "dimensionless"},
+            "parameters": {"w": 1.6},
+            "mass": [{"name": "main", "mass": 1}],
+            "element": [{"name": "spring", "type": "spring", "between": ["ground", "main"], "stiffness": 1},
+                        {"name": "damper", "type": "damper", "between": ["ground", "main"], "damping": 0.1},
+                        {"name": "stops", "type": "gap", "between": ["ground", "main"], "clearance": 1,
+                         "stiffness": 4, "tension": True}],
+            "excitation": {"frequency": "w", "force": [{"on": "main", "amplitude": 1}]},
+            "axis": [{"parameter": "w", "values": [1.6]}],
+        }).point(responses=True)
+        self.assertEqual(point.status, "several")
+        small, large = sorted(point.responses, key=lambda each: each.peaks["main_peak"])
+        self.assertIsInstance(small, frahm.FoundResponse)
+        # The small one never reaches the stops; the large one by harmonic pieces, twice.
+        self.assertLess(abs(small.peaks["main_peak"] / abs(1 / complex(1 - 1.6**2, 0.16)) - 1), 1e-12)
+        self.assertLess(abs(small.state["main_displacement"] / (1 / complex(1 - 1.6**2, 0.16)).real - 1), 1e-10)
+        self.assertLess(abs(large.peaks["main_peak"] - 2.4531427), 1e-7)
+        self.assertEqual([large.is_shown, small.is_shown], [True, False])
+        self.assertEqual(large.peaks["main_peak"], point["main_peak"])
+        for each in (small, large):
+            self.assertEqual((each.period_multiple, each.mirror_of), (1, None))
+            # The damper alone shrinks areas of states: the multipliers' product is exp(-c T/m).
+            self.assertLess(abs(np.prod(each.multipliers) / np.exp(-0.1 * 2 * np.pi / 1.6) - 1), 1e-9)
+        self.assertIsNone(frahm.Study.from_dict(MACHINE).point().responses)
+        alone, = frahm.Study.from_dict(MACHINE).point(responses=True).responses
+        self.assertTrue(alone.is_shown)
+
+    def test_both_responses_of_a_mirror_pair_are_told(self):
+        point = frahm.Study.from_dict({
+            "study": {"schema": 1, "kind": "sweep", "units": "dimensionless"},
+            "parameters": {"w": 1.55},
+            "mass": [{"name": "main", "mass": 1}],
+            "element": [{"name": "spring", "type": "spring", "between": ["ground", "main"], "stiffness": 1},
+                        {"name": "damper", "type": "damper", "between": ["ground", "main"], "damping": 0.1},
+                        {"name": "stops", "type": "gap", "between": ["ground", "main"], "clearance": 0.2,
+                         "stiffness": 20}],
+            "excitation": {"frequency": "w", "force": [{"on": "main", "amplitude": 1}]},
+            "axis": [{"parameter": "w", "values": [1.55]}],
+            "orbits": {"starts": 1},
+        }).point(responses=True)
+        self.assertEqual((point.status, point["coexisting"], point["unsettled"]), ("several", 2, 0))
+        first, second = point.responses
+        self.assertEqual((first.mirror_of, second.mirror_of), (None, 0))
+        # By a Dormand-Prince integration of order 8 from event to event, closed by Newton's method.
+        expected = [(0.272924906208, 0.519404108301), (0.300964902483, -0.428737100728)]
+        found = sorted((each.state["main_displacement"], each.state["main_velocity"]) for each in point.responses)
+        self.assertLess(np.abs(np.subtract(found, expected)).max(), 1e-8)
+        for each in point.responses:
+            self.assertLess(abs(each.peaks["main_peak"] - 0.354874840919), 1e-8)
+            self.assertLess(abs(np.prod(each.multipliers) / np.exp(-0.1 * 2 * np.pi / 1.55) - 1), 1e-9)
+
     def test_a_motion_is_refused(self):
         study = frahm.Study.load(studies / "lecture" / "run_up.toml")
         with self.assertRaisesRegex(frahm.StudyError, "has no periodic response"):

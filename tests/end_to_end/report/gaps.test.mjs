@@ -90,6 +90,61 @@ points = 5
   assert.deepEqual(complaints, []);
 });
 
+test("a page says that others may exist, whatever quantities it shows", async (t) => {
+  const folder = folderOf(t);
+  const notes = async (name, elements, r, quantity) => {
+    const file = join(folder, `${name}.h5`),
+      path = join(folder, `${name}.toml`);
+    writeFileSync(
+      path,
+      `[study]
+schema = 1
+kind = "sweep"
+units = "dimensionless"
+[parameters]
+r = 1
+[[mass]]
+name = "x"
+mass = 1
+[[element]]
+name = "spring"
+type = "spring"
+between = ["ground", "x"]
+stiffness = 1
+[[element]]
+name = "damper"
+type = "damper"
+between = ["ground", "x"]
+damping = 0.04
+[[element]]
+name = "other"
+between = ["ground", "x"]
+${elements}
+[excitation]
+frequency = "r"
+[[excitation.force]]
+on = "x"
+amplitude = 1
+[[axis]]
+parameter = "r"
+values = [${r}]
+[output]
+quantities = ["${quantity}"]
+`,
+    );
+    frahm(["run", path, "-o", file, "--progress", "none"]);
+    frahm(["report", file]);
+    const { page, complaints } = await open(t, join(folder, `${name}.html`));
+    assert.deepEqual(complaints, []);
+    return (await page.locator(".note").allTextContents()).join("\n");
+  };
+  const free = await notes("free", 'type = "jenkins"\nstiffness = 1\nforce = 10', "0.5, 3", "x_rms");
+  assert.match(free, /2 of 2 points show one of a continuum of responses/);
+  const fast = await notes("fast", 'type = "gap"\nclearance = [inf, 0]\nstiffness = 100', "2, 6", "x_peak");
+  assert.match(fast, /At 1 of 2 points some starts of the search came to no stable response/);
+  assert.doesNotMatch(fast, /continuum/);
+});
+
 test("hostile text in a title stays text", async (t) => {
   const folder = folderOf(t),
     file = join(folder, "hostile.h5");

@@ -144,6 +144,31 @@ TEST_CASE("Where a damped stop gives the map a kink the branch turns at the touc
   }
 }
 
+// Below its stop the response is linear, 1/hypot(1 - r^2, 0.02 r): it touches where that is the clearance.
+TEST_CASE("A jump of the stability lies where the event that makes it begins") {
+  const auto touch = [](double r) { return 1.0 / std::hypot(1.0 - r * r, 0.02 * r) - 0.3; };
+  double low = 2.0, high = 2.2;
+  for (int i = 0; i < 60; ++i) (touch(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0},
+                         .element = {1.0, 0.02, 20.0},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.0, 0.5},
+                         .bends = {{}, {}, {{0.3, 20.0, 0.5}}}};
+  };
+  Network network = mass_between_stops();
+  network.elements[2].bends.pop_back();
+  const Branch branch = follow_branch(network, asked, values, {.low = 1.9, .high = 2.4, .start = 2.3});
+  const auto jumps = of_kind(branch, SpecialKind::stability_jump);
+  REQUIRE_FALSE(jumps.empty());
+  for (const SpecialPoint& jump : jumps) {
+    CHECK(jump.residual < kExact);
+    CHECK_THAT(jump.at.parameter, WithinAbs(low, kExact));
+    CHECK_THAT(jump.at.quantities[0], WithinAbs(0.3, kExact));
+  }
+}
+
 Network rubbing_mass(bool has_static_force) {
   Network network{.masses = {"x"},
                   .prescribed = {},

@@ -34,6 +34,7 @@ std::string name_on_page(const QuantityRow& row) {
     case Owner::point:
     case Owner::structure:
     case Owner::coexistence:
+    case Owner::offsets:
       break;
   }
   return "`" + suffix + "`";
@@ -93,7 +94,7 @@ TEST_CASE("Over several periods energies and counts add up, and nothing else doe
   for (const QuantityRow& row : quantity_table()) {
     INFO(row.suffix);
     const bool is_of_search = row.owner == Owner::coexistence || row.measure == Measure::newton_iterations;
-    const bool counts_sliders = row.owner == Owner::sliders;
+    const bool counts_sliders = row.owner == Owner::sliders || row.owner == Owner::offsets;
     const bool counts_events = row.kind == QuantityKind::count && !is_of_search && !counts_sliders;
     const bool adds_up = std::string(row.unit) == "J" || counts_events;
     CHECK(is_of_a_period(row.measure) == adds_up);

@@ -35,6 +35,16 @@ export function missingPoints(record) {
     note(
       `${counts.get("several")} of ${map.points} points have several stable responses, one of which is shown.${searched(provenance)}`,
     );
+  const aboveZero = (name) =>
+    (map.variable(name)?.values ?? []).reduce((count, value) => count + (value > 0 ? 1 : 0), 0);
+  if (aboveZero("unsettled"))
+    note(
+      `At ${aboveZero("unsettled")} of ${map.points} points some starts of the search came to no stable response: others may exist.${searched(provenance)}`,
+    );
+  if (aboveZero("continuum"))
+    note(
+      `${aboveZero("continuum")} of ${map.points} points show one of a continuum of responses, as sliders of jenkins or iwan elements never slip there and may have other offsets: shown is the motion with z(T/2) = -z(0), else that of least energy. The error bound is of the one shown.`,
+    );
   return notes;
 }
 

@@ -1,0 +1,148 @@
+#include "studies/program/point_responses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/orbits/orbit.hpp"
+#include "solvers/quantities/quantity.hpp"
+#include "solvers/response/common_divisor.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using Number = FoundResponse::Number;
+
+// Peaks of all masses and signals, and last how many periods the response takes, where several may exist.
+std::vector<periodic::Quantity> asked_of(const Study& study) {
+  std::vector<periodic::Quantity> asked;
+  std::optional<periodic::Quantity> multiple;
+  for (const periodic::Quantity& each : periodic::all_quantities(study.network)) {
+    if (each.measure == periodic::Measure::peak) asked.push_back(each);
+    if (each.measure == periodic::Measure::period_multiple) multiple = each;
+  }
+  if (multiple) asked.push_back(*multiple);
+  return asked;
+}
+
+bool has_state(const mechanics::Element& element) {
+  return element.type == mechanics::ElementType::maxwell || element.type == mechanics::ElementType::jenkins;
+}
+
+// The samples of a history that are part of the state, by their columns.
+std::vector<std::size_t> state_columns(const mechanics::Network& network) {
+  std::vector<std::size_t> columns;
+  std::size_t column = 0;
+  for (; column < 2 * network.masses.size(); ++column) columns.push_back(column);
+  for (const mechanics::Element& element : network.elements) {
+    if (element.parts == 0) continue;
+    if (has_state(element)) columns.push_back(column);
+    ++column;
+  }
+  return columns;
+}
+
+class Responses {
+ public:
+  Responses(const Study& study, periodic::PeriodicResponse& response)
+      : study_(study), response_(response), asked_(asked_of(study)), columns_(state_columns(study.network)) {}
+
+  // The response that is told now.
+  void add() {
+    FoundResponse found;
+    std::vector<double> values(asked_.size());
+    response_.quantities(values);
+    for (std::size_t i = 0; i < asked_.size(); ++i) {
+      const auto description = periodic::describe(asked_[i], study_.network, study_.dimensionless);
+      if (asked_[i].measure == periodic::Measure::peak)
+        found.peaks.push_back({description.name, description.unit, values[i]});
+      else
+        found.period_multiple = static_cast<int>(values[i]);
+    }
+    found.multipliers = response_.multipliers();
+    found.state = state_at(0.0);
+    found.mirror_of = mirrored(found);
+    found_.push_back(std::move(found));
+  }
+
+  std::vector<Number> state_at(double phase) {
+    const periodic::History history = response_.history(std::vector<double>{phase});
+    std::vector<Number> state;
+    for (const std::size_t i : columns_)
+      state.push_back(
+          {history.names[i], study_.dimensionless ? "1" : history.units[i], history.columns[i].front()});
+    return state;
+  }
+
+  // The one with this state at omega t = 0 is that of the point.
+  std::vector<FoundResponse> result(const std::vector<Number>& shown) {
+    double nearest = HUGE_VAL;
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const double off = distance(found_[i].state, shown, 1.0);
+      if (off < nearest) nearest = off, place = i;
+    }
+    if (!found_.empty()) found_[place].is_shown = true;
+    return std::move(found_);
+  }
+
+ private:
+  // Largest difference of a number of b from `sign` times that of a, relative to the largest there.
+  static double distance(const std::vector<Number>& a, const std::vector<Number>& b, double sign) {
+    double most = 0.0, size = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      most = std::max(most, std::abs(sign * a[i].value - b[i].value));
+      size = std::max({size, std::abs(a[i].value), std::abs(b[i].value)});
+    }
+    return size > 0.0 ? most / size : most;
+  }
+
+  // An earlier one of which the response told now is the mirror image: its state half a period of the
+  // excitation later, with the opposite sign, is the other one's.
+  std::optional<std::size_t> mirrored(const FoundResponse& found) {
+    constexpr double kSame = 1e-6;
+    const int parts = periodic::common_divisor(study_.network) * found.period_multiple;
+    for (int k = 0; k < parts && !found_.empty(); ++k) {
+      const std::vector<Number> later = state_at(std::numbers::pi * (2 * k + 1) / parts);
+      if (distance(later, found.state, -1.0) < kSame) return std::nullopt;  // its own image
+      for (std::size_t i = 0; i < found_.size(); ++i)
+        if (distance(later, found_[i].state, -1.0) < kSame) return i;
+    }
+    return std::nullopt;
+  }
+
+  const Study& study_;
+  periodic::PeriodicResponse& response_;
+  std::vector<periodic::Quantity> asked_;
+  std::vector<std::size_t> columns_;
+  std::vector<FoundResponse> found_;
+};
+
+}  // namespace
+
+std::vector<FoundResponse> found_responses(const Study& study, periodic::Path path,
+                                           std::span<const mechanics::NetworkValues> way) {
+  periodic::PeriodicResponse response(study.network, asked_of(study), path, study.orbits_wanted());
+  periodic::ResponseSummary summary;
+  for (const mechanics::NetworkValues& values : way) {
+    summary = {};
+    try {
+      response.set_values(values);
+      summary = response.solve();
+    } catch (const mechanics::MechanicsError&) {
+      continue;
+    }
+  }
+  if (!periodic::has_response(summary.status)) return {};
+  Responses responses(study, response);
+  const std::vector<Number> shown = responses.state_at(0.0);
+  if (summary.coexisting <= 1) responses.add();
+  for (int which = 0; which < summary.coexisting && summary.coexisting > 1; ++which) {
+    response.tell(which);
+    responses.add();
+  }
+  return responses.result(shown);
+}
+
+}  // namespace frahm::studies

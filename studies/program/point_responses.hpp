@@ -1,0 +1,35 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/response/periodic_response.hpp"
+#include "studies/reading/study.hpp"
+
+namespace frahm::studies {
+
+// A stable response of a point, of several that may have been found.
+struct FoundResponse {
+  struct Number {
+    std::string name, unit;
+    double value = 0.0;
+  };
+  bool is_shown = false;                          // as the response of the point
+  int period_multiple = 1;                        // of the excitation's period
+  std::optional<std::size_t> mirror_of;           // index of an earlier one: this is -x(t + T/2) of it
+  std::vector<Number> peaks;                      // of masses and signals
+  std::vector<std::complex<double>> multipliers;  // over its own period, the largest first; none at grazing
+  // At omega t = 0: displacement and velocity of each mass, force of each element that has a state.
+  std::vector<Number> state;
+};
+
+// Every stable response that the search of a point finds; one where there is one alone; none where none is
+// found. way: the values of the points on the way to it, the point last.
+std::vector<FoundResponse> found_responses(const Study& study, periodic::Path path,
+                                           std::span<const mechanics::NetworkValues> way);
+
+}  // namespace frahm::studies
