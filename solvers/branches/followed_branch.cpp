@@ -53,6 +53,10 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   const AnyOrbit orbit = map_.orbit(y, std::move(shot));
   observables_.forget();
   observables_.set_system(map_.system());
+  if (!observables_.is_balanced(orbit, map_.system())) {
+    observables_.fill_missing(Status::failed, 0, point.quantities);
+    return point;
+  }
   observables_.evaluate(orbit, map_.system(), point.quantities);
   point.floquet_radius = orbit.floquet_radius;
   point.stable = orbit.is_stable() || map_.system().monotone;  // then motions never part

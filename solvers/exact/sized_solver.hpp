@@ -105,7 +105,6 @@ class SizedSolver final : public ResponseSolver {
  private:
   bool has_response() const { return orbit_.is_found(); }
   const mechanics::LinearSystem& told() const { return orbit_.multiple > 1 ? longer_ : system_; }
-  bool is_to_be_weighed() const;
   void weigh();
   const ResponseSummary& conclude();
 
@@ -159,7 +158,7 @@ const ResponseSummary& SizedSolver<N, H>::conclude() {
   observables_.forget();
   tells_motion_ = false;
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
-  if (orbit_.is_found() && is_to_be_weighed()) weigh();
+  if (orbit_.is_found()) weigh();
   summary_.status = orbit_.status;
   summary_.reason = orbit_.reason;
   summary_.residual = orbit_.residual;
@@ -179,7 +178,7 @@ void SizedSolver<N, H>::tell(int which) {
   coexistence_.tell(system_, before_, static_cast<std::size_t>(which), orbit_);
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   tells_motion_ = orbit_.status == Status::not_periodic && orbit_.passage.failure == nullptr;
-  if (orbit_.is_found() && is_to_be_weighed()) weigh();
+  if (orbit_.is_found()) weigh();
 }
 
 // Where an event only just happens they do not exist.
@@ -195,14 +194,8 @@ std::vector<std::complex<double>> SizedSolver<N, H>::multipliers() {
   return {values.begin(), values.end()};
 }
 
-// The energy balance is checked where it is requested, and wherever an event is close to another outcome.
-template <int N, int H>
-bool SizedSolver<N, H>::is_to_be_weighed() const {
-  constexpr double kNear = 1e-6;
-  return observables_.asks_energy_balance() || orbit_.passage.margin < kNear;
-}
-
-// Work in = energy lost holds for every periodic orbit. One that breaks it is searched again, or refused.
+// Work in = energy lost holds for every periodic orbit, whatever is asked of it. One that breaks it is
+// searched again, or refused.
 template <int N, int H>
 void SizedSolver<N, H>::weigh() {
   bool is_balanced = observables_.is_balanced(orbit_, told());

@@ -1,5 +1,7 @@
 #include "solvers/quantities/contact_history.hpp"
 
+#include <cmath>
+
 namespace frahm::periodic {
 
 ContactHistory contact_history(std::span<const ContactStretch> stretches, bool half_period) {
@@ -42,7 +44,7 @@ ContactHistory contact_history(std::span<const ContactStretch> stretches, bool h
     slid_before = true;
     if (stretch.direction != direction) ++result.reversals;
     direction = stretch.direction;
-    result.sliding_distance += direction * stretch.slid;
+    result.sliding_distance += std::abs(stretch.slid);  // against its direction, friction still takes energy
   }
   end_stop(stuck_so_far > 0.0 ? stuck_so_far + stuck_at_start : 0.0);
   // Stuck right up to the section only from the start of a stop that began there.

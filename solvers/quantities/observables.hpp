@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/mechanics/modes.hpp"
+#include "solvers/quantities/energy_screen.hpp"
 #include "solvers/quantities/extremes.hpp"
 #include "solvers/quantities/orbit_measurement.hpp"
 #include "solvers/quantities/quantity_values.hpp"
@@ -22,10 +23,10 @@ class Observables {
         forms_(assembly, flow),
         steps_(flow),
         measurement_(assembly, flow),
+        screen_(assembly, flow),
         request_(values_of(quantities, assembly)) {}
 
   bool needs_stability() const { return request_.needs.stability; }
-  bool asks_energy_balance() const { return request_.needs.input; }
 
   // Frequencies and damping of the linear modes, when the matrices have changed.
   void set_system(const mechanics::LinearSystem& system) {
@@ -33,18 +34,12 @@ class Observables {
   }
 
   // Whether the work put in in a period is dissipated in it. evaluate() uses the same measurements.
-  bool is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system) {
-    Needs needs = request_.needs;
-    needs |= {.integrals = true, .energies = true, .input = true};
-    measure(orbit, system, needs);
-    is_measured_ = true;
-    return value::is_balanced(measured_);
-  }
-  // Of the orbit measured last.
+  bool is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system);
+  // Of the orbit that was not balanced.
   double energy_balance() const { return value::energy_balance(measured_, {}); }
 
   // The next call measures another orbit.
-  void forget() { is_measured_ = false; }
+  void forget() { is_measured_ = is_laid_out_ = false; }
 
   // out[i] is quantity i.
   void evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, std::span<double> out);
@@ -55,7 +50,7 @@ class Observables {
 
  private:
   void measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, const Needs& needs) {
-    steps_.lay_out(orbit);
+    if (!is_laid_out_) steps_.lay_out(orbit);
     measurement_.measure(orbit, system, steps_, needs, measured_);
   }
 
@@ -64,10 +59,25 @@ class Observables {
   OrbitSteps<N, H> steps_;
   TracedOrbit<N, H> traced_;
   OrbitMeasurement<N, H> measurement_;
+  EnergyScreen<N, H> screen_;
   Request request_;
   Measured measured_;
-  bool is_measured_ = false;
+  bool is_measured_ = false, is_laid_out_ = false;
 };
+
+// Energies that are asked for are measured once; otherwise the screen tells nearly all.
+template <int N, int H>
+bool Observables<N, H>::is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system) {
+  steps_.lay_out(orbit);
+  is_laid_out_ = true;
+  is_measured_ = false;
+  if (!request_.needs.energies && screen_.is_balanced(orbit, system, steps_)) return true;
+  Needs needs = request_.needs;
+  needs |= {.integrals = true, .energies = true, .input = true};
+  measure(orbit, system, needs);
+  is_measured_ = true;
+  return value::is_balanced(measured_);
+}
 
 template <int N, int H>
 void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,

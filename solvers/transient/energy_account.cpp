@@ -11,12 +11,32 @@
 #include "solvers/quantities/integrals.hpp"
 
 namespace frahm::transient {
+namespace {
 
 using Eigen::Index;
-using periodic::contains, periodic::kNodes;
+using periodic::contains, periodic::kNodes, periodic::kTerms;
 
-EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow)
-    : assembly_(assembly), flow_(flow), forms_(assembly, flow) {
+constexpr std::size_t kMostAccounts = 64;  // of a structure with many contacts hardly a mode comes again
+constexpr int kTabulated = 16;             // whole steps: what their quadratic forms cost
+constexpr Index kPending = 64;             // whole steps that are summed up together
+
+using AtNodes = Eigen::Array<double, kNodes, 1>;
+// Whole registers of nodes, the last ones idle.
+constexpr int kLanes = 8;
+using Powers = Eigen::Array<double, kLanes, kTerms>;
+
+// Of the nodes of a step's first `length`, a row for each.
+Powers powers_at_nodes(double length) {
+  Powers at = Powers::Zero();
+  for (int i = 0; i < kNodes; ++i)
+    at.row(i) = periodic::powers(length * periodic::kNodeAt[i]).transpose().array();
+  return at;
+}
+
+}  // namespace
+
+EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow, EnergyDetail detail)
+    : assembly_(assembly), flow_(flow), detail_(detail), forms_(assembly, flow) {
   const auto masses = static_cast<Index>(assembly.network().masses.size());
   const auto supports = static_cast<Index>(assembly.network().prescribed.size());
   for (Index i = 0; i < masses; ++i) {
@@ -27,9 +47,13 @@ EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& fl
 }
 
 void EnergyAccount::set_system(const mechanics::LinearSystem& system) {
+  const Eigen::MatrixXd &S = system.structural_damping, &before = system_.structural_damping;
+  if (S.rows() != before.rows() || S != before) rates_ = mechanics::structural_rates(system);
   system_ = system;
   forcing_ = std::max(forcing_, flow_.static_norm());
-  prepared_ = false;
+  sum_up_all();
+  accounts_.clear();
+  turn_.resize(0, 0);
 }
 
 double EnergyAccount::energy_of(const State& z, double phase) const {
@@ -74,149 +98,334 @@ void EnergyAccount::put_in(double energy) {
 }
 
 void EnergyAccount::follow(const Mode& mode, const Expansion& step, double length) {
-  prepare(mode);
-  integrate(mode, step, length, total_);
+  const Account& account = account_of(mode);
+  sample(account, step, length);
+  integrate(account, mode, length, total_);
+}
+
+bool EnergyAccount::follow_whole(const Mode& mode, const Instant& start, const Instant& end) {
+  if (detail_ != EnergyDetail::total || flow_.equations().is_large()) return false;
+  Account& account = account_of(mode);
+  if (account.whole_steps < kTabulated && ++account.whole_steps < kTabulated) return false;
+  if (account.input.size() == 0) tabulate(mode, account);
+  if (!keeps_signs(account, mode, start, end)) return false;
+  account.starts.col(account.pending) << start.z, start.u;
+  if (++account.pending == kPending) sum_up(account);
+  return true;
+}
+
+// Whether each contact's speed has the sign of its friction, so that |v| is linear, and no stop is past its
+// place while it pushes no more.
+bool EnergyAccount::keeps_signs(const Account& account, const Mode& mode, const Instant& start,
+                                const Instant& end) const {
+  for (const Index contact : account.sliding) {
+    if (flow_.sliding_speed(start, contact).value * mode.sign(contact) < 0.0) return false;
+    if (flow_.sliding_speed(end, contact).value * mode.sign(contact) < 0.0) return false;
+  }
+  const auto& bends = flow_.equations().bends;
+  for (Index j = 0; j < bends.count(); ++j) {
+    if (!contains(bends.jumping & ~bends.pulling & ~mode.beyond & ~bends.of_velocity, j)) continue;
+    for (const Instant* at : {&start, &end}) {
+      const double past =
+          bends.B.col(j).dot(at->z.head(bends.B.rows())) + bends.motion.row(j).dot(at->u) - bends.place[j];
+      if (past > 0.0) return false;
+    }
+  }
+  return true;
+}
+
+void EnergyAccount::sum_up(Account& account) {
+  if (account.pending == 0) return;
+  const auto starts = account.starts.leftCols(account.pending);
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(starts.rows(), starts.rows());
+  squares.selfadjointView<Eigen::Lower>().rankUpdate(starts);
+  squares.triangularView<Eigen::StrictlyUpper>() = squares.transpose();
+  const double input = account.input.cwiseProduct(squares).sum();
+  total_.input += input;
+  total_.input_size += std::abs(input);
+  total_.of_whole_steps += account.loss.cwiseProduct(squares).sum();
+  account.pending = 0;
+}
+
+void EnergyAccount::sum_up_all() {
+  for (Account& account : accounts_) sum_up(account);
 }
 
 std::vector<double> EnergyAccount::dissipated_within(const Mode& mode, const Expansion& step, double length) {
-  prepare(mode);
+  const Account& account = account_of(mode);
   Energies energies = total_;
-  integrate(mode, step, length, energies);
+  sample(account, step, length);
+  integrate(account, mode, length, energies);
   return energies.dissipated;
 }
 
-void EnergyAccount::prepare(const Mode& mode) {
-  if (prepared_ && mode.stuck == stuck_ && mode.positive == positive_ && mode.beyond == beyond_) return;
-  prepared_ = true;
-  stuck_ = mode.stuck;
-  positive_ = mode.positive;
-  beyond_ = mode.beyond;
-  std::vector<Form> forms = loss_forms(mode);
-  for (Form& form : drive_forms(mode)) forms.push_back(std::move(form));
-  const auto rows = static_cast<Index>(forms.size());
-  of_z_.resize(rows, flow_.equations().states());
-  of_u_.resize(rows, flow_.equations().oscillators());
-  for (Index row = 0; row < rows; ++row) {
-    of_z_.row(row) = forms[static_cast<std::size_t>(row)].z.transpose();
-    of_u_.row(row) = forms[static_cast<std::size_t>(row)].u.transpose();
+EnergyAccount::Account& EnergyAccount::account_of(const Mode& mode) {
+  const auto is_of = [&](const Account& each) {
+    return each.stuck == mode.stuck && each.positive == mode.positive && each.beyond == mode.beyond;
+  };
+  if (current_ < accounts_.size() && is_of(accounts_[current_])) return accounts_[current_];
+  const auto known = std::ranges::find_if(accounts_, is_of);
+  current_ = static_cast<std::size_t>(known - accounts_.begin());
+  if (known != accounts_.end()) return *known;
+  if (accounts_.size() == kMostAccounts) {
+    sum_up_all();
+    accounts_.clear();
   }
+  current_ = accounts_.size();
+  Account& account = accounts_.emplace_back();
+  account.stuck = mode.stuck;
+  account.positive = mode.positive;
+  account.beyond = mode.beyond;
+  list_losses(account);
+  add_bends(mode, account);
+  add_drives(mode, account);
+  find_columns(account);
+  return account;
 }
 
-// The velocity of each element that damps or rubs, the force of each Maxwell element, the rates of the
-// structure's damping, and what bends.
-std::vector<EnergyAccount::Form> EnergyAccount::loss_forms(const Mode& mode) {
-  std::vector<Form> forms;
-  losses_.clear();
+void EnergyAccount::Account::add(const Form& form) {
+  std::vector<Factor>& factors = forms.emplace_back();
+  const Index states = form.z.size();
+  for (Index k = 0; k < states; ++k)
+    if (form.z[k] != 0.0) factors.push_back({k, form.z[k]});
+  for (Index k = 0; k < form.u.size(); ++k)
+    if (form.u[k] != 0.0) factors.push_back({states + k, form.u[k]});
+}
+
+// The velocity of each element that damps or rubs, the force of each Maxwell element, and the rates of the
+// structure's damping.
+void EnergyAccount::list_losses(Account& account) const {
   for (std::size_t e = 0; e < system_.coefficients.size(); ++e) {
     const mechanics::ElementCoefficients& law = system_.coefficients[e];
     const std::size_t told = mechanics::told_by(assembly_.network(), e);
     if (law.damping != 0.0) {
-      losses_.push_back({told, law.damping});
-      forms.push_back(forms_.velocity(assembly_.incidences()[e]));
+      account.losses.push_back({told, law.damping});
+      account.add(forms_.velocity(assembly_.incidences()[e]));
     }
     if (law.internal_damping != 0.0) {
-      losses_.push_back({told, 1.0 / law.internal_damping});
-      forms.push_back(forms_.zero());
-      forms.back().z[2 * flow_.equations().masses() + law.internal] = 1.0;
+      account.losses.push_back({told, 1.0 / law.internal_damping});
+      Form force = forms_.zero();
+      force.z[2 * flow_.equations().masses() + law.internal] = 1.0;
+      account.add(force);
     }
     if (law.friction != 0.0) {
-      losses_.push_back(
-          {told, law.friction, Power::sliding, static_cast<Index>(assembly_.shares()[e].contact)});
-      forms.push_back(forms_.velocity(assembly_.incidences()[e]));
+      const mechanics::ContactShare& share = assembly_.shares()[e];
+      account.losses.push_back(
+          {told, law.friction, Power::sliding, static_cast<Index>(share.contact), share.orientation});
+      account.add(forms_.velocity(assembly_.incidences()[e]));
     }
   }
-  const Eigen::MatrixXd rates = mechanics::structural_rates(system_);
-  for (Index r = 0; r < rates.rows(); ++r) {
-    losses_.push_back({system_.coefficients.size(), 1.0});
-    forms.push_back(forms_.velocity(mechanics::structural_incidence(system_, rates.row(r))));
+  for (Index r = 0; r < rates_.rows(); ++r) {
+    account.losses.push_back({system_.coefficients.size(), 1.0});
+    account.add(forms_.velocity(mechanics::structural_incidence(system_, rates_.row(r))));
   }
-  add_bends(mode, forms);
-  return forms;
 }
 
 // Beyond a place of the displacement c u'^2, of the velocity its force times u'. The energy k g^2/2 of a stop
 // that is past its place and pushes no more falls by -k g g', which nothing takes up.
-void EnergyAccount::add_bends(const Mode& mode, std::vector<Form>& forms) {
+void EnergyAccount::add_bends(const Mode& mode, Account& account) const {
   const auto& bends = flow_.equations().bends;
   for (Index j = 0; j < bends.count(); ++j) {
     const std::size_t element = assembly_.bends().element[static_cast<std::size_t>(j)];
     if (contains(mode.beyond & bends.of_velocity, j)) {
-      losses_.push_back({element, 1.0, Power::product});
-      forms.push_back(forms_.bend_force(j));
+      account.losses.push_back({element, 1.0, Power::product});
+      account.add(forms_.bend_force(j));
     } else if (contains(mode.beyond & bends.jumping, j)) {
-      losses_.push_back({element, bends.damping[j] * flow_.equations().step});
+      account.losses.push_back({element, bends.damping[j] * flow_.equations().step});
     } else if (contains(bends.jumping & ~bends.pulling, j)) {
-      losses_.push_back({element, bends.stiffness[j], Power::recoil});
-      forms.push_back(forms_.zero());
-      forms.back().z.head(bends.B.rows()) = bends.B.col(j);
-      forms.back().u = bends.motion.row(j).transpose();
-      forms.back().u[0] -= bends.place[j];
+      account.losses.push_back({element, bends.stiffness[j], Power::recoil});
+      Form past = forms_.zero();
+      past.z.head(bends.B.rows()) = bends.B.col(j);
+      past.u = bends.motion.row(j).transpose();
+      past.u[0] -= bends.place[j];
+      account.add(past);
     } else {
       continue;
     }
-    forms.push_back(forms_.bend_velocity(j));
+    account.add(forms_.bend_velocity(j));
   }
 }
 
 // Force and velocity of each mass on which an outside force acts, and of each prescribed node.
-std::vector<EnergyAccount::Form> EnergyAccount::drive_forms(const Mode& mode) const {
+void EnergyAccount::add_drives(const Mode& mode, Account& account) const {
   const auto& eq = flow_.equations();
-  std::vector<Form> forms;
   for (Index i = 0; i < eq.masses(); ++i) {
     if (eq.applied_force.row(i).isZero(0.0)) continue;
-    forms.push_back(forms_.zero());
-    forms.back().u = eq.applied_force.row(i).transpose();
-    forms.push_back(forms_.velocity(mass_incidences_[static_cast<std::size_t>(i)]));
+    Form force = forms_.zero();
+    force.u = eq.applied_force.row(i).transpose();
+    account.add(force);
+    account.add(forms_.velocity(mass_incidences_[static_cast<std::size_t>(i)]));
   }
   for (Index s = 0; s < eq.motion.rows(); ++s) {
     const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
-    forms.push_back(forms_.node_force(node, system_, mode));
-    forms.push_back(forms_.zero());
-    forms.back().u = eq.motion_velocity.row(s).transpose() / eq.step;
+    account.add(forms_.node_force(node, system_, mode));
+    Form velocity = forms_.zero();
+    velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
+    account.add(velocity);
   }
-  return forms;
 }
 
-void EnergyAccount::integrate(const Mode& mode, const Expansion& step, double length,
-                              Energies& energies) const {
-  if (of_z_.rows() == 0) return;
-  Eigen::Matrix<double, periodic::kTerms, kNodes> at;
-  for (int i = 0; i < kNodes; ++i) at.col(i) = periodic::powers(length * periodic::kNodeAt[i]);
-  const Eigen::Map<const Eigen::Matrix<double, kNodes, 1>> weight(periodic::kNodeWeight);
-  const double seconds = length * flow_.equations().step;
-  using Values = Eigen::Matrix<double, Eigen::Dynamic, kNodes>;
-  Values values = of_z_.lazyProduct((step.z.transpose().lazyProduct(at)).eval());
-  values += of_u_.lazyProduct((step.u.transpose().lazyProduct(at)).eval());
+void EnergyAccount::find_columns(Account& account) const {
+  const auto& eq = flow_.equations();
+  std::vector<char> is_read(static_cast<std::size_t>(eq.states() + eq.oscillators()), 0);
+  for (const std::vector<Factor>& form : account.forms)
+    for (const Factor& factor : form) is_read[static_cast<std::size_t>(factor.column)] = 1;
+  for (std::size_t k = 0; k < is_read.size(); ++k)
+    if (is_read[k] != 0) account.columns.push_back(static_cast<Index>(k));
+}
 
-  Index row = 0;
-  for (const Loss& loss : losses_) {
-    const auto x = values.row(row), y = values.row(row + (loss.has_two_forms() ? 1 : 0));
-    row += loss.has_two_forms() ? 2 : 1;
+// The forms at the nodes of a whole step, kNodes rows each, by state and oscillators at its start. Its series
+// are  z(s) = series_z(s) z + series_u(s) u + series(s),  and the first oscillator is 1.
+Eigen::MatrixXd EnergyAccount::rows_at_nodes(const Mode& mode, const Account& account) const {
+  const auto& eq = flow_.equations();
+  const auto& tables = flow_.configuration(mode).tables;
+  const Index states = eq.states(), oscillators = eq.oscillators();
+  const Eigen::Matrix<double, kNodes, kTerms> at = powers_at_nodes(1.0).topRows<kNodes>().matrix();
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(kNodes * static_cast<Index>(account.forms.size()), states + oscillators);
+  Eigen::MatrixXd series(kTerms, states + oscillators);
+  for (std::size_t f = 0; f < account.forms.size(); ++f) {
+    auto of_form = rows.middleRows<kNodes>(kNodes * static_cast<Index>(f));
+    series.setZero();
+    for (const auto& [column, value] : account.forms[f]) {
+      if (column >= states) {
+        of_form.rightCols(oscillators) += value * turn_.middleRows<kNodes>(kNodes * (column - states));
+        continue;
+      }
+      series.leftCols(states) += value * tables.series_z.middleRows<kTerms>(kTerms * column);
+      series.rightCols(oscillators) += value * tables.series_u.middleRows<kTerms>(kTerms * column);
+      series.col(states) += value * mode.series.segment<kTerms>(kTerms * column);
+    }
+    of_form.noalias() += at * series;
+  }
+  return rows;
+}
+
+void EnergyAccount::tabulate(const Mode& mode, Account& account) {
+  const auto& eq = flow_.equations();
+  if (turn_.size() == 0) turn_oscillators(mode);
+  const Eigen::MatrixXd rows = rows_at_nodes(mode, account);
+  const Index size = rows.cols();
+  account.starts.resize(size, kPending);
+  account.input.setZero(size, size);
+  account.loss.setZero(size, size);
+  add_whole_losses(mode, rows, account);
+  const Eigen::Map<const Eigen::VectorXd> weight(periodic::kNodeWeight, kNodes);
+  Index f = 0;
+  for (const Loss& loss : account.losses) f += loss.has_two_forms() ? 2 : 1;
+  for (; f < static_cast<Index>(account.forms.size()); f += 2) {
+    const auto force = rows.middleRows<kNodes>(kNodes * f),
+               velocity = rows.middleRows<kNodes>(kNodes * (f + 1));
+    account.input.noalias() += eq.step * (force.transpose() * weight.asDiagonal() * velocity);
+  }
+}
+
+void EnergyAccount::add_whole_losses(const Mode& mode, const Eigen::MatrixXd& rows, Account& account) const {
+  const auto& eq = flow_.equations();
+  const Eigen::Map<const Eigen::VectorXd> weight(periodic::kNodeWeight, kNodes);
+  Index f = 0;
+  for (const Loss& loss : account.losses) {
+    const auto x = rows.middleRows<kNodes>(kNodes * f);
+    const auto y = rows.middleRows<kNodes>(kNodes * (f + (loss.has_two_forms() ? 1 : 0)));
+    f += loss.has_two_forms() ? 2 : 1;
+    const double factor = loss.coefficient * eq.step;
+    if (loss.power == Power::sliding) {
+      if (contains(mode.stuck, loss.contact)) continue;
+      account.loss.row(eq.states()) +=
+          factor * loss.orientation * mode.sign(loss.contact) * (weight.transpose() * x);
+      if (!flow_.rests(mode, loss.contact)) account.sliding.push_back(loss.contact);
+    } else if (loss.power != Power::recoil) {
+      account.loss.noalias() += factor * (x.transpose() * weight.asDiagonal() * y);
+    }
+  }
+  std::ranges::sort(account.sliding);
+  const auto twice = std::ranges::unique(account.sliding);
+  account.sliding.erase(twice.begin(), twice.end());
+}
+
+void EnergyAccount::turn_oscillators(const Mode& mode) {
+  const auto& eq = flow_.equations();
+  const Eigen::Matrix<double, kNodes, kTerms> at = powers_at_nodes(1.0).topRows<kNodes>().matrix();
+  turn_.setZero(kNodes * eq.oscillators(), eq.oscillators());
+  Instant unit;
+  unit.z.setZero(eq.states());
+  Expansion x;
+  for (Index k = 0; k < eq.oscillators(); ++k) {
+    unit.u.setZero(eq.oscillators());
+    unit.u[k] = 1.0;
+    flow_.expand(unit, mode, x);
+    // The first one is 1, whatever the others are.
+    for (Index j = k == 0 ? 0 : 1; j < eq.oscillators(); ++j)
+      turn_.col(k).segment<kNodes>(kNodes * j).noalias() = at * x.u.col(j);
+  }
+}
+
+// The forms at the nodes of a step's first `length`.
+void EnergyAccount::sample(const Account& account, const Expansion& step, double length) {
+  static const Powers whole = powers_at_nodes(1.0);
+  const Powers at = length == 1.0 ? whole : powers_at_nodes(length);
+  const Index states = step.z.cols();
+  at_columns_.resize(static_cast<std::size_t>(kLanes * (states + step.u.cols())));
+  const auto at_column = [&](Index column) {
+    return Eigen::Map<Eigen::Array<double, kLanes, 1>>(at_columns_.data() + kLanes * column);
+  };
+  for (const Index column : account.columns) {
+    const double* const terms =
+        column < states ? step.z.col(column).data() : step.u.col(column - states).data();
+    Eigen::Array<double, kLanes, 1> sum = terms[0] * at.col(0);
+    for (int k = 1; k < kTerms; ++k) sum += terms[k] * at.col(k);
+    at_column(column) = sum;
+  }
+  at_nodes_.resize(kNodes * static_cast<Index>(account.forms.size()));
+  for (std::size_t f = 0; f < account.forms.size(); ++f) {
+    Eigen::Array<double, kLanes, 1> sum = Eigen::Array<double, kLanes, 1>::Zero();
+    for (const auto& [column, value] : account.forms[f]) sum += value * at_column(column);
+    at_nodes_.segment<kNodes>(kNodes * static_cast<Index>(f)) = sum.head<kNodes>().matrix();
+  }
+}
+
+// Of the forms at the nodes.
+void EnergyAccount::integrate(const Account& account, const Mode& mode, double length,
+                              Energies& energies) const {
+  const Eigen::Map<const AtNodes> weight(periodic::kNodeWeight);
+  const double seconds = length * flow_.equations().step;
+  const auto form = [&](Index f) { return at_nodes_.segment<kNodes>(kNodes * f).array(); };
+  Index f = 0;
+  for (const Loss& loss : account.losses) {
+    const AtNodes x = form(f), y = form(f + (loss.has_two_forms() ? 1 : 0));
+    f += loss.has_two_forms() ? 2 : 1;
     if (loss.power == Power::sliding && contains(mode.stuck, loss.contact)) continue;
     double mean = 0.0;
-    if (loss.power == Power::square) mean = x.cwiseAbs2().dot(weight);
-    if (loss.power == Power::sliding) mean = x.cwiseAbs().dot(weight);
-    if (loss.power == Power::product) mean = x.cwiseProduct(y).dot(weight);
-    if (loss.power == Power::recoil) mean = -x.cwiseMax(0.0).cwiseProduct(y).dot(weight);
+    if (loss.power == Power::square) mean = (x.square() * weight).sum();
+    if (loss.power == Power::sliding) mean = (x.abs() * weight).sum();
+    if (loss.power == Power::product) mean = (x * y * weight).sum();
+    if (loss.power == Power::recoil) mean = -(x.max(0.0) * y * weight).sum();
     energies.dissipated[loss.element] += loss.coefficient * seconds * mean;
   }
-  for (; row < values.rows(); row += 2) {
-    const Eigen::Matrix<double, 1, kNodes> power = values.row(row).cwiseProduct(values.row(row + 1));
-    energies.input += seconds * power.dot(weight);
-    energies.input_size += seconds * power.cwiseAbs().dot(weight);
+  for (; f < static_cast<Index>(account.forms.size()); f += 2) {
+    const AtNodes power = form(f) * form(f + 1);
+    energies.input += seconds * (power * weight).sum();
+    energies.input_size += seconds * (power.abs() * weight).sum();
   }
 }
 
-EnergyBudget EnergyAccount::budget(double energy_now) const {
+EnergyBudget EnergyAccount::budget(double energy_now) {
+  sum_up_all();
   EnergyBudget budget{.initial = initial_, .final = energy_now, .input = total_.input};
   budget.dissipated = total_.dissipated;
-  const double dissipated = std::accumulate(budget.dissipated.begin(), budget.dissipated.end(), 0.0);
+  const double dissipated =
+      std::accumulate(budget.dissipated.begin(), budget.dissipated.end(), total_.of_whole_steps);
   const double stored = std::max(std::abs(initial_), std::abs(energy_now));
   const double forcing = forcing_ * forcing_;
   // Where nothing moves, velocities are rounding: work is linear in them, losses are quadratic.
   constexpr double work_rounding = 1e-11, loss_rounding = 1e-26;
   const double size = std::max({stored, dissipated, total_.input_size});
   const double missing = initial_ + total_.input - energy_now - dissipated;
+  if (detail_ == EnergyDetail::total) {
+    budget.balance = missing == 0.0 ? 0.0 : std::abs(missing) / size;
+    budget.dissipated = {dissipated};
+    return budget;
+  }
   budget.balance = size > work_rounding * forcing ? std::abs(missing) / size : 0.0;
   const bool nothing = dissipated <= loss_rounding * std::max(forcing, stored);
   for (const double each : budget.dissipated) budget.share.push_back(nothing ? 0.0 : each / dissipated);

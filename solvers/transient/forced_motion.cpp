@@ -128,7 +128,7 @@ double own_frequency(const Problem& problem) {
 }
 
 // The motion with so many stairs, 0 for one frequency.
-ForcedMotion run(const Problem& problem, int stairs) {
+ForcedMotion follow(const Problem& problem, int stairs, EnergyDetail energies) {
   const ForcedOptions& options = problem.options;
   const Sweep& sweep = problem.sweep;
   const bool is_record = options.quantities.empty();
@@ -136,10 +136,8 @@ ForcedMotion run(const Problem& problem, int stairs) {
   std::optional<CoordinatePeaks> peaks;
   if (is_record || options.extrema || stairs > 0)
     peaks.emplace(problem.assembly.network(), measurement.largest());
-  const Kept kept{.extrema = options.extrema,
-                  .energies = is_record || measurement.needs_energies(),
-                  .rest = false,
-                  .largest = &measurement.largest()};
+  const Kept kept{
+      .extrema = options.extrema, .energies = energies, .rest = false, .largest = &measurement.largest()};
   DrivenMotion driven(problem.assembly, problem.values_at, problem.initial,
                       problem.course ? &*problem.course : nullptr,
                       sample_times(options.duration, options.samples), options.watch, kept);
@@ -160,7 +158,7 @@ ForcedMotion run(const Problem& problem, int stairs) {
   motion.discretisation_error = kNone;
   if (!complete) motion.failure = driven.trajectory.failure();
   if (complete) driven.trajectory.finish();
-  if (kept.energies) motion.energy = driven.trajectory.energy_budget();
+  if (energies != EnergyDetail::none) motion.energy = driven.trajectory.energy_budget();
   if (motion.failure.empty()) motion.failure = why_unbalanced(motion.energy);
   motion.history = driven.trajectory.samples();
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
@@ -174,6 +172,17 @@ ForcedMotion run(const Problem& problem, int stairs) {
   for (std::size_t j = 0; j < problem.assembly.bends().law.size(); ++j)
     motion.touches.push_back(driven.trajectory.touches(j));
   return motion;
+}
+
+// The totals of the energies are cheap, and never more lenient than the account of each element, which alone
+// decides where they miss.
+ForcedMotion run(const Problem& problem, int stairs) {
+  const ForcedOptions& options = problem.options;
+  if (options.quantities.empty() || MotionMeasurement::needs_energies(options.quantities))
+    return follow(problem, stairs, EnergyDetail::each);
+  if (!options.weighed) return follow(problem, stairs, EnergyDetail::none);
+  ForcedMotion motion = follow(problem, stairs, EnergyDetail::total);
+  return why_unbalanced(motion.energy).empty() ? motion : follow(problem, stairs, EnergyDetail::each);
 }
 
 // The largest change of a sample or a peak of a mass [m].

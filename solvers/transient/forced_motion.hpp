@@ -26,9 +26,11 @@ struct ForcedOptions {
   double duration = 0.0;                         // [s], > 0
   int samples = 0;
   Watch watch = {};
-  // If not empty, ForcedMotion::numbers are these, and energies are followed only if one of them needs them.
-  std::span<const MotionQuantity> quantities = {};
+  std::span<const MotionQuantity> quantities = {};  // if not empty, ForcedMotion::numbers are these
   bool extrema = false;  // ForcedMotion::extrema and peaks are kept, whatever the quantities
+  // Energies are followed, and a motion whose energies do not balance fails, whatever is asked of it.
+  // Without, it is for a search whose outcome is weighed.
+  bool weighed = true;
 };
 
 struct ForcedMotion {

@@ -1,5 +1,6 @@
 #include "solvers/transient/motion_measurement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -53,12 +54,15 @@ double slip_phases(const std::vector<Stop>& stops) {
 
 }  // namespace
 
+bool MotionMeasurement::needs_energies(std::span<const MotionQuantity> quantities) {
+  return std::ranges::any_of(quantities, [](const auto& each) { return is_of_energy(each.measure); });
+}
+
 MotionMeasurement::MotionMeasurement(const mechanics::Assembly& assembly,
                                      std::span<const MotionQuantity> quantities, bool of_run_up)
     : assembly_(assembly), quantities_(quantities), traces_(quantities.size(), kNoTrace) {
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     const auto& [measure, index] = quantities[q];
-    needs_energies_ = needs_energies_ || is_of_energy(measure);
     const auto kind = trace_of(measure);
     if (!kind) continue;
     const mechanics::Incidence at = measure == stroke

@@ -16,9 +16,11 @@ class MotionMeasurement {
   MotionMeasurement(const mechanics::Assembly& assembly, std::span<const MotionQuantity> quantities,
                     bool of_run_up);
 
+  // Whether one of the quantities is an energy.
+  static bool needs_energies(std::span<const MotionQuantity> quantities);
+
   // What the trajectory has to follow.
   LargestValues& largest() { return largest_; }
-  bool needs_energies() const { return needs_energies_; }
 
   // Of a motion that is complete, one for each quantity. NaN: the discretisation error, which the trajectory
   // does not know; velocities and accelerations of signals with a support's part in a run-up, where the
@@ -35,7 +37,6 @@ class MotionMeasurement {
   std::span<const MotionQuantity> quantities_;
   LargestValues largest_;
   std::vector<std::size_t> traces_;  // of each quantity its number among the largest values; kNoTrace
-  bool needs_energies_ = false;
 };
 
 }  // namespace frahm::transient

@@ -36,7 +36,7 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
     : assembly_(assembly),
       walk_(flow_),
       steps_(flow_),
-      account_(assembly, flow_),
+      account_(assembly, flow_, kept.energies),
       kept_(kept),
       held_since_(kNone),
       forms_(assembly, flow_),
@@ -165,10 +165,16 @@ void Trajectory::follow(Step& step) {
   }
   if (kept_.extrema) follow_extrema(step, at);
   keep_samples(step, at);
-  if (kept_.energies) account_.follow(mode, steps_.expand(step), step.length);
+  if (kept_.energies != EnergyDetail::none) follow_energies(step);
   for (Index j = 0; kept_.rest && j < eq.contacts(); ++j) {
     if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
   }
+}
+
+void Trajectory::follow_energies(Step& step) {
+  const auto& mode = flow_.mode(step.mode);
+  if (step.length == 1.0 && account_.follow_whole(mode, step.left, step.right)) return;
+  account_.follow(mode, steps_.expand(step), step.length);
 }
 
 void Trajectory::follow_extrema(Step& step, double at) {

@@ -15,10 +15,10 @@ using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
 
 // What is kept of a motion beside its stops; the rest costs nothing.
 struct Kept {
-  bool extrema = true;               // the turning points of each mass and signal
-  bool energies = true;              // the energy budget
-  bool rest = true;                  // where the motion rests or tends to
-  LargestValues* largest = nullptr;  // these too; must outlive the trajectory
+  bool extrema = true;                         // the turning points of each mass and signal
+  EnergyDetail energies = EnergyDetail::each;  // the energy budget
+  bool rest = true;                            // where the motion rests or tends to
+  LargestValues* largest = nullptr;            // these too; must outlive the trajectory
 };
 
 // A motion from given initial values on the exact flow, passage after passage, with its records: the extrema
@@ -83,7 +83,7 @@ class Trajectory {
   const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
   const std::vector<Touch>& touches(std::size_t bend) const { return touches_[bend]; }
   const Samples& samples() const { return samples_; }
-  EnergyBudget energy_budget() const { return account_.budget(energy_now()); }  // of the motion so far
+  EnergyBudget energy_budget() { return account_.budget(energy_now()); }  // of the motion so far
 
  private:
   using State = typename Flow::S::State;
@@ -96,6 +96,7 @@ class Trajectory {
   void carry_over(double old_step);
   bool pass(double length, double phase);
   void follow(Step& step);
+  void follow_energies(Step& step);
   void follow_extrema(Step& step, double at);
   void follow_signals(const Step& step, double at);
   void note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at, const State& z);

@@ -39,6 +39,8 @@ std::vector<MotionQuantity> motion_quantities(const Study& study) {
     for (const MotionQuantity& each : quantities_called(study, name, all))
       if (std::ranges::find(result, each) == result.end()) result.push_back(each);
   }
+  const MotionQuantity status{.measure = transient::MotionMeasure::status};
+  if (std::ranges::find(result, status) == result.end()) result.push_back(status);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
@@ -42,6 +43,7 @@ bool is_always_recorded(periodic::Measure measure) {
   return measure == periodic::Measure::unsettled || measure == periodic::Measure::continuum;
 }
 
+// With the status, whatever is listed: a number without it says nothing of whether it was found.
 std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   std::vector<periodic::Quantity> result;
   for (const OutputChoice::Name& name : study.map()->output.names) {
@@ -52,7 +54,7 @@ std::vector<periodic::Quantity> listed_quantities(const Study& study) {
     const bool is_listed = std::find(result.begin(), result.end(), quantity) != result.end();
     if (!is_listed && is_always_recorded(quantity.measure)) result.push_back(quantity);
   }
-  return result;
+  return with_status(std::move(result));
 }
 
 // A name in the record chosen by the study, and its position.
@@ -152,6 +154,12 @@ std::vector<periodic::Quantity> output_quantities(const Study& study) {
       break;
   }
   return periodic::standard_quantities(study.network);
+}
+
+std::vector<periodic::Quantity> with_status(std::vector<periodic::Quantity> quantities) {
+  const periodic::Quantity status{.measure = periodic::Measure::status};
+  if (std::ranges::find(quantities, status) == quantities.end()) quantities.push_back(status);
+  return quantities;
 }
 
 std::string headline_of(const Study& study) {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "engine/team.hpp"
 #include "solvers/mechanics/linear_system.hpp"
@@ -160,7 +161,7 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const std:
     throw StudyError(rules::unknown_name, "{}: there is no quantity \"{}\"{}", study.source.name, name,
                      hint_of_unmatched(name, known));
   }
-  return called;
+  return with_status(std::move(called));
 }
 
 RowResponses solve_rows(const Study& study, const std::vector<periodic::Quantity>& quantities, RowGrid grid,

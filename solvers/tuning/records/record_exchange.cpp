@@ -46,7 +46,7 @@ Optimum RecordExchange::run(std::vector<double> design) {
 }
 
 DesignPeaks RecordExchange::look(const std::vector<double>& design) {
-  DesignPeaks found = peaks_of(task_, design, stop_asked_);
+  DesignPeaks found = peaks_of(task_, design, stop_asked_, Weighed::no);
   optimum_.orbits += found.motions.size();
   failure_ = found.failure;
   return found;

@@ -49,6 +49,7 @@ class RecordExchange {
   std::vector<std::size_t> holding() const;
 
   Optimum written();
+  void weigh();
   void judge();
   void end(Outcome outcome, std::string reason);
   void write_parameters(bool known);

@@ -40,8 +40,7 @@ std::vector<bool> above_share(const std::vector<double>& worst, double share) {
 // A motion of a scenario; one without a meaning is told with the name of its scenario, where there are
 // several.
 transient::ForcedMotion motion_of(const RecordTask& task, std::size_t scenario, std::size_t record,
-                                  const mechanics::NetworkValues& values) {
-  // Energies are not followed where only a peak is asked for.
+                                  const mechanics::NetworkValues& values, Weighed weighed) {
   static constexpr transient::MotionQuantity kPeak{transient::MotionMeasure::peak, 0};
   try {
     return transient::forced_motion(task.network, [&](double) { return values; }, {},
@@ -49,7 +48,8 @@ transient::ForcedMotion motion_of(const RecordTask& task, std::size_t scenario, 
                                      .records = task.records[record],
                                      .duration = task.duration,
                                      .quantities = std::span(&kPeak, 1),
-                                     .extrema = true});
+                                     .extrema = true,
+                                     .weighed = weighed == Weighed::yes});
   } catch (const mechanics::MechanicsError& error) {
     if (task.scenarios.size() < 2) throw;
     throw mechanics::MechanicsError(task.scenarios[scenario] + ": " + error.what());
@@ -59,7 +59,7 @@ transient::ForcedMotion motion_of(const RecordTask& task, std::size_t scenario, 
 }  // namespace
 
 DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
-                     const std::function<bool()>& stop_asked) {
+                     const std::function<bool()>& stop_asked, Weighed weighed) {
   DesignPeaks peaks;
   std::vector<double> largest;
   mechanics::NetworkValues values;
@@ -67,7 +67,7 @@ DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
     task.network_at(s, design, values, nullptr);
     for (std::size_t r = 0; r < task.records.size(); ++r) {
       if (stop_asked()) return peaks;
-      const transient::ForcedMotion motion = motion_of(task, s, r, values);
+      const transient::ForcedMotion motion = motion_of(task, s, r, values, weighed);
       if (!motion.failure.empty()) {
         peaks.failure = motion.failure;
         return peaks;

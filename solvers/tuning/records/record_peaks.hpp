@@ -30,8 +30,12 @@ struct DesignPeaks {
   std::vector<bool> above;                      // of each scenario: the share leaves it out
 };
 
+// Whether a motion whose energies do not balance fails: an exchange looks at many designs, and weighs the one
+// that it reports.
+enum class Weighed { no, yes };
+
 DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
-                     const std::function<bool()>& stop_asked);
+                     const std::function<bool()>& stop_asked, Weighed weighed);
 
 // The worst of the peaks, or their mean.
 double objective_of(RecordObjective objective, std::span<const double> peaks);

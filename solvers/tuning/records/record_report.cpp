@@ -15,6 +15,7 @@ constexpr double kSolved = 1e-5;  // a KKT residual that is still an optimum's
 }  // namespace
 
 Optimum RecordExchange::written() {
+  weigh();
   judge();
   const bool known = optimum_.outcome == Outcome::converged;
   write_parameters(known);
@@ -22,6 +23,12 @@ Optimum RecordExchange::written() {
   optimum_.objective = best_.found.objective;
   write_peaks(known);
   return optimum_;
+}
+
+// The motions of the design that is reported once more, with their energies.
+void RecordExchange::weigh() {
+  if (stop_asked_() || !failure_.empty() || best_.found.motions.empty()) return;
+  failure_ = peaks_of(task_, best_.design, stop_asked_, Weighed::yes).failure;
 }
 
 void RecordExchange::judge() {

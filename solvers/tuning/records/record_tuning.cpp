@@ -39,7 +39,8 @@ Optimum tune_over_records(const RecordTask& task, std::size_t start,
 }
 
 std::vector<Peak> largest_peaks(const RecordTask& task, std::span<const double> design) {
-  const DesignPeaks found = peaks_of(task, design, [] { return false; });
+  const DesignPeaks found = peaks_of(
+      task, design, [] { return false; }, Weighed::yes);
   std::vector<Peak> peaks;
   for (const auto& motion : found.motions) {
     const FoundPeak& largest = motion.front();

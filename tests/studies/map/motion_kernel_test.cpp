@@ -1,5 +1,6 @@
 #include "studies/map/motion_kernel.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -71,6 +72,44 @@ TEST_CASE("a motion whose values break a rule of mechanics is a point that fails
   CHECK(tile.values[3 + 1] == -1.0);
   CHECK(tile.values[6 + 1] == 4.0);
   CHECK(tile.values[6 + 0] == 1.0);
+}
+
+// A sledge is pushed over a plate that lies on the ground; both contacts have a static limit. Who slides is
+// an event of two contacts at once, and a wrong choice is one whose energies do not balance.
+const std::string sledge_on_plate =
+    "[study]\nschema = 1\nkind = \"transient\"\n[parameters]\nP = 17\n"
+    "[[mass]]\nname = \"sledge\"\nmass = 1\n[[mass]]\nname = \"plate\"\nmass = 1\n"
+    "[[element]]\nname = \"k1\"\ntype = \"spring\"\nbetween = [\"ground\", \"sledge\"]\nstiffness = 1e-6\n"
+    "[[element]]\nname = \"k2\"\ntype = \"spring\"\nbetween = [\"ground\", \"plate\"]\nstiffness = 1e-6\n"
+    "[[element]]\nname = \"f1\"\ntype = \"coulomb\"\nbetween = [\"plate\", \"sledge\"]\nforce = 5\n"
+    "static_force = 11\n"
+    "[[element]]\nname = \"f2\"\ntype = \"coulomb\"\nbetween = [\"ground\", \"plate\"]\nforce = 2\n"
+    "static_force = 2.4\n"
+    "[[excitation.force]]\non = \"sledge\"\namplitude = \"P\"\norder = 0\n"
+    "[[excitation.force]]\non = \"plate\"\namplitude = -6.6\norder = 0\n"
+    "[transient]\nduration = 0.1\n";
+
+TEST_CASE("how a motion ended does not depend on what is asked of it") {
+  const std::string map = sledge_on_plate + axis_of("P", "[15, 16, 17, 18]") + full + "quantities = ";
+  const auto statuses = [&](const std::string& quantities) {
+    const MapPlan plan = plan_of(map + quantities + "\n");
+    const auto status =
+        std::ranges::find(plan.variables, "status", &frahm::periodic::QuantityDescription::name);
+    REQUIRE(status != plan.variables.end());
+    std::vector<double> found;
+    for (std::uint64_t tile = 0; tile < plan.grid.tiles(); ++tile) {
+      const std::vector<double> values = tile_of(plan, tile).values;
+      const auto points = static_cast<std::ptrdiff_t>(plan.grid.box(tile).points());
+      const auto first = values.begin() + points * (status - plan.variables.begin());
+      found.insert(found.end(), first, first + points);
+    }
+    return found;
+  };
+  const std::vector<double> all = statuses("\"all\"");
+  for (const auto& variable : plan_of(map + "\"all\"\n").variables) {
+    INFO(variable.name);
+    CHECK(statuses("[\"" + variable.name + "\"]") == all);
+  }
 }
 
 TEST_CASE("a stop is obeyed within a motion") {

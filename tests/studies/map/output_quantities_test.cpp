@@ -22,6 +22,13 @@ TEST_CASE("quantities are recorded in the order in which the study lists them") 
   CHECK(listed[1].measure == frahm::periodic::Measure::peak);
 }
 
+TEST_CASE("the status is recorded whatever the study lists") {
+  const auto listed = of(base + "[output]\nquantities = [\"main_peak\"]\n");
+  REQUIRE(listed.size() == 2);
+  CHECK(listed[0].measure == frahm::periodic::Measure::peak);
+  CHECK(listed[1].measure == frahm::periodic::Measure::status);
+}
+
 std::vector<frahm::periodic::QuantityDescription> variables_of(const std::string& text) {
   const Study study = parse_study(text, "small.toml");
   return output_variables(study, output_quantities(study));
