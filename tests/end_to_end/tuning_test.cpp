@@ -152,6 +152,71 @@ TEST_CASE("a response without a bound in the band ends with code 7") {
   CHECK_THAT(outcome.err, Catch::Contains("unbounded"));
 }
 
+TEST_CASE("a tuning whose given start has no response ends at the optimum that other starts find") {
+  // An absorber with friction alone, so light at the start that a resonance grows without end.
+  const std::string rubbing = R"(
+[study]
+schema = 1
+kind = "tune"
+title = "friction"
+units = "dimensionless"
+[parameters]
+omega = 1.0
+f = 0.7477282750839013
+d = 0.21127459299780388
+[[mass]]
+name = "main"
+mass = 1.0
+[[mass]]
+name = "tmd"
+mass = 0.05
+[[element]]
+name = "main_spring"
+type = "spring"
+between = ["ground", "main"]
+stiffness = 1.0
+[[element]]
+name = "k"
+type = "spring"
+between = ["main", "tmd"]
+stiffness = "0.05*f^2"
+[[element]]
+name = "guide"
+type = "coulomb"
+between = ["main", "tmd"]
+force = "d"
+[excitation]
+frequency = "omega"
+[[excitation.force]]
+on = "main"
+amplitude = 1.0
+[tune]
+objective = "minimax"
+quantity = "main_peak"
+band = { parameter = "omega", from = 0.2, to = 3.0 }
+start = "given"
+[[design]]
+parameter = "f"
+lower = 0.3
+upper = 2.0
+[[design]]
+parameter = "d"
+lower = 0.002
+upper = 10.0
+)";
+  // Found by version 8ae4d614 from starts of its own, without this one.
+  constexpr double from_other_starts = 6.540168286;
+  const Folder folder;
+  const std::string file = folder / "rubbing.h5";
+  const Outcome outcome = tune(folder.write("rubbing.toml", rubbing), file);
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.code == 0);
+  Columns optimum = columns_of(file);
+  CHECK(optimum["outcome"][0] == 1);
+  CHECK(std::isinf(optimum["worst_before"][0]));
+  CHECK_THAT(optimum["objective"][0], Catch::WithinRel(from_other_starts, of_peak));
+}
+
 TEST_CASE("a tuning stopped by its time budget keeps its finished starts and goes on") {
   const Folder folder;
   const std::string study = folder.write("tmd.toml", with_starts("200"));
