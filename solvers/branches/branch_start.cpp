@@ -44,11 +44,10 @@ AnyOrbit find_start(BranchMap& map, int multiple) {
   using Search = OrbitSearch<kAnySize, kAnySize>;
   AnyOrbit orbit;
   const mechanics::LinearSystem& system = map.system();
-  const std::vector<UndampedMode> undamped = undamped_modes(system);
-  if (!Search::serves(system, undamped)) {
+  if (!Search::serves(system)) {
     find_among_several(map, multiple, orbit);
   } else {
-    Search(map.assembly(), map.flow()).find(system, undamped, true, orbit);
+    Search(map.assembly(), map.flow()).find(system, undamped_modes(system), true, orbit);
     if (orbit.is_found() && multiple > 1) {
       orbit.status = Status::failed;
       orbit.reason = "the orbit found takes one period";
@@ -68,10 +67,9 @@ std::vector<AnyOrbit> find_stable(BranchMap& map, double parameter, const Orbits
   const LimitedSearch limit(map.flow().work());
   using Search = OrbitSearch<kAnySize, kAnySize>;
   const mechanics::LinearSystem& system = map.system();
-  const std::vector<UndampedMode> undamped = undamped_modes(system);
   AnyOrbit orbit;
-  if (Search::serves(system, undamped)) {
-    Search(map.assembly(), map.flow()).find(system, undamped, true, orbit);
+  if (Search::serves(system)) {
+    Search(map.assembly(), map.flow()).find(system, undamped_modes(system), true, orbit);
     if (orbit.is_found()) orbits.push_back(std::move(orbit));
   } else {
     Coexistence<kAnySize, kAnySize> coexistence(map.assembly(), map.flow(), wanted);

@@ -102,11 +102,12 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits
 template <int N, int H>
 typename Sizes<N, H>::State Coexistence<N, H>::start(int index, const mechanics::LinearSystem& system) const {
   constexpr double kReach[] = {1.5, 4.0, 8.0};
+  constexpr double kLargest = 1e6;  // of the static response: at a resonance without damping
   const StepEquations<N, H>& eq = flow_.equations();
   const Eigen::Index n = eq.masses();
   typename S::State z = mechanics::steady_response(system, 0.0);
   z.segment(n, n) *= eq.step;
-  if (!z.allFinite()) z.setZero();
+  if (!z.allFinite() || eq.energy_norm(z) > kLargest * flow_.static_norm()) z.setZero();
   if (index == 0) return z;
   const double places = eq.bends.count() > 0 ? eq.bends.place.cwiseAbs().maxCoeff() : 0.0;
   const double at_rest = (eq.K_inverse * eq.force).cwiseAbs().rowwise().sum().maxCoeff();

@@ -27,9 +27,7 @@ class OrbitSearch {
   void begin_row() { continuation_.begin_row(); }
 
   // Whether a system has one orbit at most.
-  static bool serves(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped) {
-    return system.monotone || has_none(system, undamped);
-  }
+  static bool serves(const mechanics::LinearSystem& system) { return system.monotone; }
   // Finds the orbit of the flow, which is set to `system`. certify: also multipliers and error bound.
   void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped, bool certify,
             Orbit<N, H>& orbit);
@@ -41,9 +39,6 @@ class OrbitSearch {
 
  private:
   void fail_unbounded(Orbit<N, H>& orbit);
-  static bool has_none(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped) {
-    return (system.monotone || system.bends.count() == 0) && is_unbounded(system, undamped);
-  }
 
   Flow<N, H>& flow_;
   Continuation<N, H> continuation_;
@@ -53,7 +48,7 @@ class OrbitSearch {
 template <int N, int H>
 void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped,
                              bool certify, Orbit<N, H>& orbit) {
-  if (has_none(system, undamped)) return fail_unbounded(orbit);
+  if (is_unbounded(system, undamped)) return fail_unbounded(orbit);
   continuation_.find(system, orbit);
   rest_.settle(orbit);
   if (certify && orbit.is_found()) judge_stability(flow_, orbit);

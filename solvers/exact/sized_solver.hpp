@@ -140,7 +140,7 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   const LimitedSearch limit(flow_.work());
   if (wanted_.is_sweep()) {
     sweep_on();
-  } else if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {
+  } else if (OrbitSearch<N, H>::serves(system_)) {
     search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
   } else {
     before_ = coexistence_.find(system_, &before_);
@@ -154,6 +154,11 @@ template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::conclude() {
   observables_.forget();
   tells_motion_ = false;
+  // Static friction may hold a resonance at rest. Where it does not, motions grow.
+  if (orbit_.status == Status::not_periodic && is_unbounded(system_, undamped_modes_)) {
+    orbit_.status = Status::unbounded;
+    orbit_.reason = kUnbounded;
+  }
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   if (orbit_.is_found() && is_to_be_weighed()) weigh();
   summary_.status = orbit_.status;
