@@ -56,7 +56,7 @@ class Rows(unittest.TestCase):
         study = frahm.Study.from_dict(MACHINE)
         values = np.linspace(300, 1200, 1001)
         one, two = (study.response("speed", values, quantities="*_peak", F=[20, 80], threads=n) for n in (1, 2))
-        self.assertEqual(set(one), {"machine_peak", "absorber_peak"})
+        self.assertEqual(set(one), {"machine_peak", "absorber_peak", "status"})
         for name in one:
             np.testing.assert_array_equal(one[name], two[name])
 
