@@ -7,19 +7,20 @@
 
 #include "solvers/flow/linear_form.hpp"
 #include "solvers/quantities/integrals.hpp"
+#include "solvers/quantities/quantity_values.hpp"
+#include "solvers/quantities/step_rows.hpp"
 
 namespace frahm::periodic {
 
 // Whether an orbit's energies balance, at a fraction of what it costs to measure them: totals alone, of the
-// same six nodes a step as Integrals. Over a whole step the powers' forms at the nodes are linear in the
-// state and the oscillators at its start, by rows that a mode has once. It is never more lenient than the
-// measurement (value::is_balanced), which decides where this is in doubt.
+// same six nodes a step as Integrals. It is never more lenient than the measurement, which decides where this
+// is in doubt.
 template <int N, int H>
 class EnergyScreen {
  public:
   // Both must outlive the screen.
   EnergyScreen(const mechanics::Assembly& assembly, const Flow<N, H>& flow)
-      : assembly_(assembly), flow_(flow), forms_(assembly, flow) {}
+      : assembly_(assembly), flow_(flow), forms_(assembly, flow), step_rows_(flow) {}
 
   // steps: of the orbit, laid out.
   bool is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, OrbitSteps<N, H>& steps);
@@ -28,10 +29,8 @@ class EnergyScreen {
   using S = Sizes<N, H>;
   using Form = LinearForm<N, H>;
   using Step = PassageStep<N, H>;
-  static constexpr int kSize = S::is_fixed ? S::kState + S::kOscillators : Eigen::Dynamic;
-  using Joined = Eigen::Matrix<double, kSize, 1>;
-  using Row = Eigen::Matrix<double, kNodes, kSize>;  // a form at the nodes of a whole step
-  using Series = Eigen::Matrix<double, kTerms, kSize>;
+  using Rows = StepRows<N, H>;
+  using Joined = Eigen::Matrix<double, Rows::kSize, 1>;
   using AtNodes = Eigen::Matrix<double, kNodes, 1>;
   using Nodes = Eigen::Matrix<double, kTerms, kNodes>;
   struct Power {
@@ -43,8 +42,6 @@ class EnergyScreen {
   void list_losses(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
   void list_inputs(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
   std::size_t place_of(const Form& form);
-  void turn_oscillators();
-  void tabulate(const Mode<N, H>& mode);
   void sample(const Step& step);
   void sample(const Expansion<N, H>& x, double length);
   void add_powers(double length, const mechanics::LinearSystem& system);
@@ -57,22 +54,21 @@ class EnergyScreen {
 
   std::vector<Form> listed_;
   std::vector<Power> losses_, inputs_;
-  std::size_t structure_ = 0;        // the first of the forms that the structure's damping takes
-  std::vector<Row> rows_;            // of each form
-  std::vector<AtNodes> turns_;       // cosine and sine of each order's angle
-  std::vector<AtNodes> values_;      // of each form
-  double input_ = 0.0, loss_ = 0.0;  // [J] in the orbit's passage
+  std::size_t structure_ = 0;  // the first of the forms that the structure's damping takes
+  Rows step_rows_;
+  std::vector<typename Rows::Row> rows_;  // of each form, in the mode
+  std::vector<AtNodes> values_;           // of each form
+  double input_ = 0.0, loss_ = 0.0;       // [J] in the orbit's passage
 };
 
 template <int N, int H>
 bool EnergyScreen<N, H>::is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
                                      OrbitSteps<N, H>& steps) {
-  constexpr double kBalanced = 1e-9, kWorkRounding = 1e-14;  // as value::is_balanced
-  constexpr double kTabulated = 3.0;                         // steps: what the rows cost
+  constexpr double kTabulated = 3.0;  // steps: what the rows cost
   const StepEquations<N, H>& eq = flow_.equations();
   const bool depends_on_mode = eq.bends.count() > 0 || eq.motion.rows() > 0;
   input_ = loss_ = 0.0;
-  turns_.clear();
+  step_rows_.forget();
   std::size_t segment = 0;
   const Step* first = nullptr;
   bool is_tabulated = false;
@@ -82,7 +78,8 @@ bool EnergyScreen<N, H>::is_balanced(const Orbit<N, H>& orbit, const mechanics::
       first = &step;
       if (segment == 0 || depends_on_mode) list(mode, system);
       is_tabulated = !eq.is_large() && orbit.passage.segments[segment].length >= kTabulated;
-      if (is_tabulated) tabulate(mode);
+      for (std::size_t f = 0; is_tabulated && f < listed_.size(); ++f)
+        rows_[f] = step_rows_.of(listed_[f], mode);
     }
     if (is_tabulated && step.length == 1.0)
       sample(step);
@@ -97,7 +94,7 @@ bool EnergyScreen<N, H>::is_balanced(const Orbit<N, H>& orbit, const mechanics::
   const double periods = orbit.half_period ? 2.0 : 1.0;
   const double size = periods * std::max(std::abs(input_), loss_);
   const double energy = std::max(flow_.static_norm(), eq.energy_norm(orbit.z));
-  return periods * std::abs(input_ - loss_) <= kBalanced * size + kWorkRounding * energy * energy;
+  return value::is_balanced(periods * std::abs(input_ - loss_), size, energy);
 }
 
 template <int N, int H>
@@ -108,6 +105,7 @@ void EnergyScreen<N, H>::list(const Mode<N, H>& mode, const mechanics::LinearSys
   list_losses(mode, system);
   list_inputs(mode, system);
   values_.resize(listed_.size());
+  rows_.resize(listed_.size());
 }
 
 template <int N, int H>
@@ -172,59 +170,6 @@ void EnergyScreen<N, H>::list_inputs(const Mode<N, H>& mode, const mechanics::Li
     velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
     const std::size_t place = place_of(forms_.node_force(node, system, mode));
     inputs_.push_back({1.0, place, place_of(velocity)});
-  }
-}
-
-template <int N, int H>
-void EnergyScreen<N, H>::turn_oscillators() {
-  const StepEquations<N, H>& eq = flow_.equations();
-  for (Eigen::Index k = 0; k < eq.phase_rate.size(); ++k) {
-    AtNodes cosine, sine;
-    for (int i = 0; i < kNodes; ++i) {
-      cosine[i] = std::cos(eq.phase_rate[k] * kNodeAt[i]);
-      sine[i] = std::sin(eq.phase_rate[k] * kNodeAt[i]);
-    }
-    turns_.push_back(cosine);
-    turns_.push_back(sine);
-  }
-}
-
-// z(s) = series_z(s) z + series_u(s) u + series(s) over a whole step; the first oscillator is 1.
-template <int N, int H>
-void EnergyScreen<N, H>::tabulate(const Mode<N, H>& mode) {
-  static const Nodes at = [] {
-    Nodes nodes;
-    for (int i = 0; i < kNodes; ++i) nodes.col(i) = powers(kNodeAt[i]);
-    return nodes;
-  }();
-  const StepEquations<N, H>& eq = flow_.equations();
-  const auto& tables = flow_.configuration(mode).tables;
-  const Eigen::Index states = eq.states(), size = states + eq.oscillators();
-  if (turns_.empty()) turn_oscillators();
-  rows_.resize(listed_.size());
-  Series series(kTerms, size);
-  for (std::size_t f = 0; f < listed_.size(); ++f) {
-    const Form& form = listed_[f];
-    Row& row = rows_[f];
-    row.setZero(kNodes, size);
-    series.setZero();
-    bool is_of_state = false;
-    for (Eigen::Index k = 0; k < states; ++k) {
-      if (form.z[k] == 0.0) continue;
-      is_of_state = true;
-      series.leftCols(states) += form.z[k] * tables.series_z.template middleRows<kTerms>(kTerms * k);
-      series.rightCols(size - states) += form.z[k] * tables.series_u.template middleRows<kTerms>(kTerms * k);
-      series.col(states) += form.z[k] * mode.series.template segment<kTerms>(kTerms * k);
-    }
-    if (is_of_state) row = at.transpose().lazyProduct(series);
-    row.col(states).array() += form.u[0];
-    for (Eigen::Index k = 0; k < eq.phase_rate.size(); ++k) {
-      const AtNodes &cosine = turns_[static_cast<std::size_t>(2 * k)],
-                    &sine = turns_[static_cast<std::size_t>(2 * k + 1)];
-      const double a = form.u[1 + 2 * k], b = form.u[2 + 2 * k];
-      row.col(states + 1 + 2 * k) += a * cosine + b * sine;
-      row.col(states + 2 + 2 * k) += b * cosine - a * sine;
-    }
   }
 }
 

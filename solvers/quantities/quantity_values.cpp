@@ -266,12 +266,15 @@ double energy_balance(const Measured& m, const Asked&) {
 
 // The work of a force is rounded to a part of the work it would do on the whole displacement, however little
 // of it the mass moves.
-bool is_balanced(const Measured& m) {
+bool is_balanced(double missing, double energies, double energy) {
   constexpr double kBalanced = 1e-9;
   constexpr double kWorkRounding = 1e-14;
-  const double energy = std::max(m.static_norm, m.state_norm);
-  return energy_balance(m, {}) * energy_of_period(m) <=
-         kBalanced * energy_of_period(m) + kWorkRounding * energy * energy;
+  return missing <= kBalanced * energies + kWorkRounding * energy * energy;
+}
+
+bool is_balanced(const Measured& m) {
+  const double energies = energy_of_period(m);
+  return is_balanced(energy_balance(m, {}) * energies, energies, std::max(m.static_norm, m.state_norm));
 }
 
 double force_transmissibility(const Measured& m, const Asked&) {

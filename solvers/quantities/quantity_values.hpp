@@ -34,7 +34,11 @@ double unsettled(const Measured&, const Asked&);
 double continuum(const Measured&, const Asked&);
 double energy_input(const Measured&, const Asked&);
 double energy_balance(const Measured&, const Asked&);
-bool is_balanced(const Measured&);  // to 1e-9 of these energies and the rounding of the work
+bool is_balanced(const Measured&);
+// Whether an energy that is missing in a period [J] is rounding: below 1e-9 of the energies that are put in
+// and lost, and the rounding of the work, a part of energy^2: the larger energy norm of the orbit and of the
+// static response [sqrt(J)].
+bool is_balanced(double missing, double energies, double energy);
 double force_transmissibility(const Measured&, const Asked&);
 double residual(const Measured&, const Asked&);
 double error_bound(const Measured&, const Asked&);

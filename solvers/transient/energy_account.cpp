@@ -36,7 +36,7 @@ Powers powers_at_nodes(double length) {
 }  // namespace
 
 EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow, EnergyDetail detail)
-    : assembly_(assembly), flow_(flow), detail_(detail), forms_(assembly, flow) {
+    : assembly_(assembly), flow_(flow), detail_(detail), forms_(assembly, flow), step_rows_(flow) {
   const auto masses = static_cast<Index>(assembly.network().masses.size());
   const auto supports = static_cast<Index>(assembly.network().prescribed.size());
   for (Index i = 0; i < masses; ++i) {
@@ -53,7 +53,7 @@ void EnergyAccount::set_system(const mechanics::LinearSystem& system) {
   forcing_ = std::max(forcing_, flow_.static_norm());
   sum_up_all();
   accounts_.clear();
-  turn_.resize(0, 0);
+  step_rows_.forget();
 }
 
 double EnergyAccount::energy_of(const State& z, double phase) const {
@@ -274,36 +274,22 @@ void EnergyAccount::find_columns(Account& account) const {
     if (is_read[k] != 0) account.columns.push_back(static_cast<Index>(k));
 }
 
-// The forms at the nodes of a whole step, kNodes rows each, by state and oscillators at its start. Its series
-// are  z(s) = series_z(s) z + series_u(s) u + series(s),  and the first oscillator is 1.
-Eigen::MatrixXd EnergyAccount::rows_at_nodes(const Mode& mode, const Account& account) const {
-  const auto& eq = flow_.equations();
-  const auto& tables = flow_.configuration(mode).tables;
-  const Index states = eq.states(), oscillators = eq.oscillators();
-  const Eigen::Matrix<double, kNodes, kTerms> at = powers_at_nodes(1.0).topRows<kNodes>().matrix();
-  Eigen::MatrixXd rows =
-      Eigen::MatrixXd::Zero(kNodes * static_cast<Index>(account.forms.size()), states + oscillators);
-  Eigen::MatrixXd series(kTerms, states + oscillators);
+// The forms at the nodes of a whole step, kNodes rows each.
+Eigen::MatrixXd EnergyAccount::rows_at_nodes(const Mode& mode, const Account& account) {
+  const Index states = flow_.equations().states();
+  Eigen::MatrixXd rows(kNodes * static_cast<Index>(account.forms.size()),
+                       states + flow_.equations().oscillators());
   for (std::size_t f = 0; f < account.forms.size(); ++f) {
-    auto of_form = rows.middleRows<kNodes>(kNodes * static_cast<Index>(f));
-    series.setZero();
-    for (const auto& [column, value] : account.forms[f]) {
-      if (column >= states) {
-        of_form.rightCols(oscillators) += value * turn_.middleRows<kNodes>(kNodes * (column - states));
-        continue;
-      }
-      series.leftCols(states) += value * tables.series_z.middleRows<kTerms>(kTerms * column);
-      series.rightCols(oscillators) += value * tables.series_u.middleRows<kTerms>(kTerms * column);
-      series.col(states) += value * mode.series.segment<kTerms>(kTerms * column);
-    }
-    of_form.noalias() += at * series;
+    Form form = forms_.zero();
+    for (const auto& [column, value] : account.forms[f])
+      (column < states ? form.z[column] : form.u[column - states]) = value;
+    rows.middleRows<kNodes>(kNodes * static_cast<Index>(f)) = step_rows_.of(form, mode);
   }
   return rows;
 }
 
 void EnergyAccount::tabulate(const Mode& mode, Account& account) {
   const auto& eq = flow_.equations();
-  if (turn_.size() == 0) turn_oscillators(mode);
   const Eigen::MatrixXd rows = rows_at_nodes(mode, account);
   const Index size = rows.cols();
   account.starts.resize(size, kPending);
@@ -341,23 +327,6 @@ void EnergyAccount::add_whole_losses(const Mode& mode, const Eigen::MatrixXd& ro
   std::ranges::sort(account.sliding);
   const auto twice = std::ranges::unique(account.sliding);
   account.sliding.erase(twice.begin(), twice.end());
-}
-
-void EnergyAccount::turn_oscillators(const Mode& mode) {
-  const auto& eq = flow_.equations();
-  const Eigen::Matrix<double, kNodes, kTerms> at = powers_at_nodes(1.0).topRows<kNodes>().matrix();
-  turn_.setZero(kNodes * eq.oscillators(), eq.oscillators());
-  Instant unit;
-  unit.z.setZero(eq.states());
-  Expansion x;
-  for (Index k = 0; k < eq.oscillators(); ++k) {
-    unit.u.setZero(eq.oscillators());
-    unit.u[k] = 1.0;
-    flow_.expand(unit, mode, x);
-    // The first one is 1, whatever the others are.
-    for (Index j = k == 0 ? 0 : 1; j < eq.oscillators(); ++j)
-      turn_.col(k).segment<kNodes>(kNodes * j).noalias() = at * x.u.col(j);
-  }
 }
 
 // The forms at the nodes of a step's first `length`.

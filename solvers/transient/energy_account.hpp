@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/flow/linear_form.hpp"
+#include "solvers/quantities/step_rows.hpp"
 #include "solvers/transient/motion.hpp"
 
 namespace frahm::transient {
@@ -109,8 +110,7 @@ class EnergyAccount {
   void find_columns(Account& account) const;
   void tabulate(const Mode& mode, Account& account);
   void add_whole_losses(const Mode& mode, const Eigen::MatrixXd& rows, Account& account) const;
-  Eigen::MatrixXd rows_at_nodes(const Mode& mode, const Account& account) const;
-  void turn_oscillators(const Mode& mode);
+  Eigen::MatrixXd rows_at_nodes(const Mode& mode, const Account& account);
   bool keeps_signs(const Account& account, const Mode& mode, const Instant& start, const Instant& end) const;
   void sum_up(Account& account);
   void sum_up_all();
@@ -129,8 +129,7 @@ class EnergyAccount {
   Eigen::MatrixXd rates_;  // of the structure's damping
   std::vector<Account> accounts_;
   std::size_t current_ = 0;  // of them
-  // The oscillators at the nodes of a whole step, kNodes rows each, by those at its start.
-  Eigen::MatrixXd turn_;
+  periodic::StepRows<Eigen::Dynamic, Eigen::Dynamic> step_rows_;
   std::vector<double> at_columns_;  // workspace: each column at the nodes of a step
   Eigen::VectorXd at_nodes_;        // each form at the nodes of a step
 
