@@ -201,6 +201,13 @@ std::vector<Quantity> all_quantities(const Network& network) {
   return result;
 }
 
+std::vector<Quantity> with_always_recorded(std::vector<Quantity> listed, const Network& network) {
+  for (const Quantity& each : all_quantities(network))
+    if (row_of(each.measure).recorded_always && std::ranges::find(listed, each) == listed.end())
+      listed.push_back(each);
+  return listed;
+}
+
 std::vector<Quantity> standard_quantities(const Network& network) {
   std::vector<Quantity> result;
   for (const StandardOf of : {StandardOf::masses, StandardOf::springs, StandardOf::contacts,

@@ -109,6 +109,10 @@ std::vector<Quantity> all_quantities(const mechanics::Network& network);
 // transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
+// These, and behind them what every record has, whatever is listed: how the search ended, and whether its
+// response is all there is.
+std::vector<Quantity> with_always_recorded(std::vector<Quantity> listed, const mechanics::Network& network);
+
 // Whether the page of an atlas shows the quantity unasked: peaks of masses and signals, strokes of the
 // springs, stops and regimes, the shares of what dissipates, and the status.
 bool is_shown(const Quantity& quantity, const mechanics::Network& network);

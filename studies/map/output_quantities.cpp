@@ -38,23 +38,13 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const Outp
   return found;
 }
 
-// What says that a response is not all there is.
-bool is_always_recorded(periodic::Measure measure) {
-  return measure == periodic::Measure::unsettled || measure == periodic::Measure::continuum;
-}
-
-// With the status, whatever is listed: a number without it says nothing of whether it was found.
 std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   std::vector<periodic::Quantity> result;
   for (const OutputChoice::Name& name : study.map()->output.names) {
     for (const periodic::Quantity& quantity : quantities_called(study, name))
       if (std::find(result.begin(), result.end(), quantity) == result.end()) result.push_back(quantity);
   }
-  for (const periodic::Quantity& quantity : periodic::all_quantities(study.network)) {
-    const bool is_listed = std::find(result.begin(), result.end(), quantity) != result.end();
-    if (!is_listed && is_always_recorded(quantity.measure)) result.push_back(quantity);
-  }
-  return with_status(std::move(result));
+  return periodic::with_always_recorded(std::move(result), study.network);
 }
 
 // A name in the record chosen by the study, and its position.
@@ -154,12 +144,6 @@ std::vector<periodic::Quantity> output_quantities(const Study& study) {
       break;
   }
   return periodic::standard_quantities(study.network);
-}
-
-std::vector<periodic::Quantity> with_status(std::vector<periodic::Quantity> quantities) {
-  const periodic::Quantity status{.measure = periodic::Measure::status};
-  if (std::ranges::find(quantities, status) == quantities.end()) quantities.push_back(status);
-  return quantities;
 }
 
 std::string headline_of(const Study& study) {

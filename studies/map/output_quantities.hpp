@@ -7,12 +7,9 @@
 
 namespace frahm::studies {
 
-// The quantities that the study asks for, in the order of the record; the status, where it is not listed, is
-// the last. Throws StudyError for an unknown name.
+// The quantities that the study asks for, in the order of the record; behind those listed, what is always
+// recorded. Throws StudyError for an unknown name.
 std::vector<periodic::Quantity> output_quantities(const Study& study);
-
-// These, and last the status of the response where it is not among them.
-std::vector<periodic::Quantity> with_status(std::vector<periodic::Quantity> quantities);
 
 // The variables of the record: these quantities, then those of a comparison. Throws StudyError where two
 // names of the record would be the same.
