@@ -99,20 +99,24 @@ bool solve(periodic::PeriodicResponse& response, std::span<const mechanics::Netw
   return true;
 }
 
-// Its motion, from an orbit of its own.
-void add_motion(periodic::PeriodicResponse& response, std::span<const mechanics::NetworkValues> way,
-                std::size_t history_samples, PointReport& report) {
+// An orbit of its own, for the motion.
+periodic::ResponseSummary solve_alone(periodic::PeriodicResponse& response,
+                                      std::span<const mechanics::NetworkValues> way) {
   response.forget();
-  periodic::Status status = periodic::Status::not_computed;
+  periodic::ResponseSummary summary;
   for (const mechanics::NetworkValues& values : way) {
+    summary = {};
     try {
       response.set_values(values);
-      status = response.solve().status;
+      summary = response.solve();
     } catch (const mechanics::MechanicsError&) {
-      status = periodic::Status::not_computed;
+      continue;
     }
   }
-  if (!periodic::has_response(status)) return;
+  return summary;
+}
+
+void add_motion(periodic::PeriodicResponse& response, std::size_t history_samples, PointReport& report) {
   report.stretches = response.stretches();
   if (history_samples > 0) report.history = response.history(periodic::phases_of_a_period(history_samples));
 }
@@ -197,9 +201,15 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, perio
   report.modes = modes_at_point(study, values);
   add_comparison(study, parameters, quantities, report);
   report.why_no_bound = why_no_bound(study.network, report);
-  if (is_found(report)) add_motion(response, way, history_samples, report);
+  if (responses) report.responses.emplace();
+  if (is_found(report)) {
+    const periodic::ResponseSummary summary = solve_alone(response, way);
+    if (periodic::has_response(summary.status)) {
+      add_motion(response, history_samples, report);
+      if (responses) report.responses = found_responses(study, quantities, response, summary.coexisting);
+    }
+  }
   if (gradient) report.gradient = gradient_at(study, parameters);
-  if (responses) report.responses = found_responses(study, path, way);
   return report;
 }
 

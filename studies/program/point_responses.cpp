@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/mechanics/linear_system.hpp"
-#include "solvers/orbits/orbit.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "solvers/response/common_divisor.hpp"
 
@@ -13,18 +11,6 @@ namespace frahm::studies {
 namespace {
 
 using Number = FoundResponse::Number;
-
-// Peaks of all masses and signals, and last how many periods the response takes, where several may exist.
-std::vector<periodic::Quantity> asked_of(const Study& study) {
-  std::vector<periodic::Quantity> asked;
-  std::optional<periodic::Quantity> multiple;
-  for (const periodic::Quantity& each : periodic::all_quantities(study.network)) {
-    if (each.measure == periodic::Measure::peak) asked.push_back(each);
-    if (each.measure == periodic::Measure::period_multiple) multiple = each;
-  }
-  if (multiple) asked.push_back(*multiple);
-  return asked;
-}
 
 bool has_state(const mechanics::Element& element) {
   return element.type == mechanics::ElementType::maxwell || element.type == mechanics::ElementType::jenkins;
@@ -45,20 +31,22 @@ std::vector<std::size_t> state_columns(const mechanics::Network& network) {
 
 class Responses {
  public:
-  Responses(const Study& study, periodic::PeriodicResponse& response)
-      : study_(study), response_(response), asked_(asked_of(study)), columns_(state_columns(study.network)) {}
+  Responses(const Study& study, std::span<const periodic::Quantity> quantities,
+            periodic::PeriodicResponse& response)
+      : study_(study), quantities_(quantities), response_(response), columns_(state_columns(study.network)) {}
 
   // The response that is told now.
   void add() {
     FoundResponse found;
-    std::vector<double> values(asked_.size());
+    std::vector<double> values(quantities_.size());
     response_.quantities(values);
-    for (std::size_t i = 0; i < asked_.size(); ++i) {
-      const auto description = periodic::describe(asked_[i], study_.network, study_.dimensionless);
-      if (asked_[i].measure == periodic::Measure::peak)
-        found.peaks.push_back({description.name, description.unit, values[i]});
-      else
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const periodic::Quantity& quantity = quantities_[i];
+      if (quantity.measure == periodic::Measure::period_multiple)
         found.period_multiple = static_cast<int>(values[i]);
+      if (quantity.measure != periodic::Measure::peak) continue;
+      const auto description = periodic::describe(quantity, study_.network, study_.dimensionless);
+      found.peaks.push_back({description.name, description.unit, values[i]});
     }
     found.multipliers = response_.multipliers();
     found.state = state_at(0.0);
@@ -113,32 +101,20 @@ class Responses {
   }
 
   const Study& study_;
+  std::span<const periodic::Quantity> quantities_;
   periodic::PeriodicResponse& response_;
-  std::vector<periodic::Quantity> asked_;
   std::vector<std::size_t> columns_;
   std::vector<FoundResponse> found_;
 };
 
 }  // namespace
 
-std::vector<FoundResponse> found_responses(const Study& study, periodic::Path path,
-                                           std::span<const mechanics::NetworkValues> way) {
-  periodic::PeriodicResponse response(study.network, asked_of(study), path, study.orbits_wanted());
-  periodic::ResponseSummary summary;
-  for (const mechanics::NetworkValues& values : way) {
-    summary = {};
-    try {
-      response.set_values(values);
-      summary = response.solve();
-    } catch (const mechanics::MechanicsError&) {
-      continue;
-    }
-  }
-  if (!periodic::has_response(summary.status)) return {};
-  Responses responses(study, response);
+std::vector<FoundResponse> found_responses(const Study& study, std::span<const periodic::Quantity> quantities,
+                                           periodic::PeriodicResponse& response, int coexisting) {
+  Responses responses(study, quantities, response);
   const std::vector<Number> shown = responses.state_at(0.0);
-  if (summary.coexisting <= 1) responses.add();
-  for (int which = 0; which < summary.coexisting && summary.coexisting > 1; ++which) {
+  if (coexisting <= 1) responses.add();
+  for (int which = 0; which < coexisting && coexisting > 1; ++which) {
     response.tell(which);
     responses.add();
   }

@@ -27,9 +27,9 @@ struct FoundResponse {
   std::vector<Number> state;
 };
 
-// Every stable response that the search of a point finds; one where there is one alone; none where none is
-// found. way: the values of the points on the way to it, the point last.
-std::vector<FoundResponse> found_responses(const Study& study, periodic::Path path,
-                                           std::span<const mechanics::NetworkValues> way);
+// Every stable response that the search of a point has found, `coexisting` of them. response: solved there,
+// for these quantities; it is left at the last one.
+std::vector<FoundResponse> found_responses(const Study& study, std::span<const periodic::Quantity> quantities,
+                                           periodic::PeriodicResponse& response, int coexisting);
 
 }  // namespace frahm::studies

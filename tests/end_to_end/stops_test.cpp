@@ -372,15 +372,15 @@ TEST_CASE("rig_play.toml: without play the teeth are a spring, and play takes in
   CHECK_THAT(map["main_peak"][most] / map["main_peak"][at], WithinAbs(1.11, 0.005));
 }
 
-// One mass on a spring with a stop below it, without clearance: w = 2 w1 w2/(w1 + w2) = 1.5195.
-std::string mass_on_a_stop(const std::string& excitation, const std::string& more = "") {
+// One mass on a spring and a damper, with one more element at it.
+std::string damped_mass(const std::string& parameters, const std::string& element, const std::string& more) {
   return R"([study]
 schema = 1
 kind = "sweep"
 units = "dimensionless"
 [parameters]
-r = 3
-[[mass]]
+)" + parameters +
+         R"([[mass]]
 name = "main"
 mass = 1
 [[element]]
@@ -394,18 +394,24 @@ type = "damper"
 between = ["ground", "main"]
 damping = 0.1
 [[element]]
-name = "stop"
-type = "gap"
 between = ["ground", "main"]
+)" + element +
+         more;
+}
+
+// With a stop below it, without clearance: w = 2 w1 w2/(w1 + w2) = 1.5195.
+std::string mass_on_a_stop(const std::string& excitation, const std::string& more = "") {
+  return damped_mass("r = 3\n", R"(name = "stop"
+type = "gap"
 clearance = [0, inf]
 stiffness = 9
-)" + excitation +
-         R"([[axis]]
+)",
+                     excitation + R"([[axis]]
 parameter = "r"
 values = [2.1, 2.6, 3.0, 3.1]
 [output]
 quantities = ["main_peak", "damper_energy", "energy_balance", "floquet_radius", "coexisting", "period_multiple", "status"]
-)" + more;
+)" + more);
 }
 
 const std::string kOrderOne = R"([excitation]
@@ -453,49 +459,25 @@ TEST_CASE("where no multiple that is tried has a stable orbit, the point is not 
 // Below F/k_t the slider is a spring: x = 0.3/|1.5 - r^2 + 0.1 i r|.
 TEST_CASE("where a slider never slips, file, run and point say that the response is one of a continuum") {
   const runs::Folder folder;
-  const std::string study = folder.write("study.toml", R"([study]
-schema = 1
-kind = "sweep"
-units = "dimensionless"
-[parameters]
-r = 1
-F = 1
-[[mass]]
-name = "x"
-mass = 1
-[[element]]
-name = "spring"
-type = "spring"
-between = ["ground", "x"]
-stiffness = 1
-[[element]]
-name = "damper"
-type = "damper"
-between = ["ground", "x"]
-damping = 0.1
-[[element]]
-name = "slider"
+  const std::string study =
+      folder.write("study.toml", damped_mass("r = 1\nF = 1\n", R"(name = "slider"
 type = "jenkins"
-between = ["ground", "x"]
 stiffness = 0.5
 force = "F"
-[excitation]
-frequency = "r"
-[[excitation.force]]
-on = "x"
-amplitude = 0.3
-[[axis]]
+)",
+                                             runs::replaced(kOrderOne, "amplitude = 1", "amplitude = 0.3") +
+                                                 R"([[axis]]
 parameter = "F"
 values = [0.1, 1]
 [output]
-quantities = ["x_peak"]
-)");
+quantities = ["main_peak"]
+)"));
   const auto outcome = runs::frahm({"run", study, "-o", folder / "map.h5"});
   CHECK(outcome.code == 0);
   CHECK_THAT(outcome.out, Catch::Contains("1 of 2 points show one of a continuum of responses"));
   const Map map = runs::read_map(folder / "map.h5");
   CHECK(map["continuum"] == std::vector<double>{0, 1});
-  CHECK_THAT(map["x_peak"][1], WithinRel(0.3 / std::abs(Complex(0.5, 0.1)), kClosed));
+  CHECK_THAT(map["main_peak"][1], WithinRel(0.3 / std::abs(Complex(0.5, 0.1)), kClosed));
   const auto point = runs::frahm({"point", study});
   CHECK_THAT(point.out,
              Catch::Contains("one of a continuum: 1 slider of jenkins or iwan elements never slips") &&
@@ -522,42 +504,17 @@ TEST_CASE("point --responses lists every stable response with its state, peaks a
 // from -0.354874840919 to 0.351252539400, and its mirror image.
 TEST_CASE("point --responses lists both of a mirror pair, and says which is the image of which") {
   const runs::Folder folder;
-  const std::string study = folder.write("study.toml", R"([study]
-schema = 1
-kind = "sweep"
-units = "dimensionless"
-[parameters]
-r = 1.55
-[[mass]]
-name = "x"
-mass = 1
-[[element]]
-name = "spring"
-type = "spring"
-between = ["ground", "x"]
-stiffness = 1
-[[element]]
-name = "damper"
-type = "damper"
-between = ["ground", "x"]
-damping = 0.1
-[[element]]
-name = "stops"
+  const std::string study = folder.write("study.toml", damped_mass("r = 1.55\n", R"(name = "stops"
 type = "gap"
-between = ["ground", "x"]
 clearance = 0.2
 stiffness = 20
-[excitation]
-frequency = "r"
-[[excitation.force]]
-on = "x"
-amplitude = 1
-[[axis]]
+)",
+                                                                   kOrderOne + R"([[axis]]
 parameter = "r"
 values = [1.55]
 [orbits]
 starts = 1
-)");
+)"));
   const auto text = runs::frahm({"point", study, "--responses"});
   CHECK(text.code == 0);
   CHECK_THAT(text.out, Catch::Contains("Stable responses that were found: 2"));

@@ -19,6 +19,21 @@ DIFFERENCES = 1e-6  # relative: their error
 ATLAS = studies / "rig" / "rig_atlas.toml"
 
 
+def between_stops(w, stops, more={}):
+    """A damped mass between two stops, driven at w."""
+    return frahm.Study.from_dict({
+        "study": {"schema": 1, "kind": "sweep", "units": "dimensionless"},
+        "parameters": {"w": w},
+        "mass": [{"name": "main", "mass": 1}],
+        "element": [{"name": "spring", "type": "spring", "between": ["ground", "main"], "stiffness": 1},
+                    {"name": "damper", "type": "damper", "between": ["ground", "main"], "damping": 0.1},
+                    {"name": "stops", "type": "gap", "between": ["ground", "main"], **stops}],
+        "excitation": {"frequency": "w", "force": [{"on": "main", "amplitude": 1}]},
+        "axis": [{"parameter": "w", "values": [w]}],
+        **more,
+    })
+
+
 class Points(unittest.TestCase):
     def test_every_quantity_is_that_of_the_program(self):
         told = subprocess.run([program, "point", ATLAS, "--at", "omega=250 rpm,I=6.36", "--json"],
@@ -123,17 +138,7 @@ class Points(unittest.TestCase):
         self.assertIn("nothing damps", undamped.why_no_error_bound)
 
     def test_every_stable_response_is_told_with_its_state_and_multipliers(self):
-        point = frahm.Study.from_dict({
-            "study": {"schema": 1, "kind": "sweep", "units": "dimensionless"},
-            "parameters": {"w": 1.6},
-            "mass": [{"name": "main", "mass": 1}],
-            "element": [{"name": "spring", "type": "spring", "between": ["ground", "main"], "stiffness": 1},
-                        {"name": "damper", "type": "damper", "between": ["ground", "main"], "damping": 0.1},
-                        {"name": "stops", "type": "gap", "between": ["ground", "main"], "clearance": 1,
-                         "stiffness": 4, "tension": True}],
-            "excitation": {"frequency": "w", "force": [{"on": "main", "amplitude": 1}]},
-            "axis": [{"parameter": "w", "values": [1.6]}],
-        }).point(responses=True)
+        point = between_stops(1.6, {"clearance": 1, "stiffness": 4, "tension": True}).point(responses=True)
         self.assertEqual(point.status, "several")
         small, large = sorted(point.responses, key=lambda each: each.peaks["main_peak"])
         self.assertIsInstance(small, frahm.FoundResponse)
@@ -152,18 +157,7 @@ class Points(unittest.TestCase):
         self.assertTrue(alone.is_shown)
 
     def test_both_responses_of_a_mirror_pair_are_told(self):
-        point = frahm.Study.from_dict({
-            "study": {"schema": 1, "kind": "sweep", "units": "dimensionless"},
-            "parameters": {"w": 1.55},
-            "mass": [{"name": "main", "mass": 1}],
-            "element": [{"name": "spring", "type": "spring", "between": ["ground", "main"], "stiffness": 1},
-                        {"name": "damper", "type": "damper", "between": ["ground", "main"], "damping": 0.1},
-                        {"name": "stops", "type": "gap", "between": ["ground", "main"], "clearance": 0.2,
-                         "stiffness": 20}],
-            "excitation": {"frequency": "w", "force": [{"on": "main", "amplitude": 1}]},
-            "axis": [{"parameter": "w", "values": [1.55]}],
-            "orbits": {"starts": 1},
-        }).point(responses=True)
+        point = between_stops(1.55, {"clearance": 0.2, "stiffness": 20}, {"orbits": {"starts": 1}}).point(responses=True)
         self.assertEqual((point.status, point["coexisting"], point["unsettled"]), ("several", 2, 0))
         first, second = point.responses
         self.assertEqual((first.mirror_of, second.mirror_of), (None, 0))
