@@ -45,11 +45,12 @@ const Meaning exit_codes[] = {
     {"not_converged", "outcome of a run in Python: exit code 7; the best so far is in the file"}};
 
 // What is no key of the readers, and no unit of UDUNITS.
-const Meaning other_words[] = {{"repeat",
-                                "repeat in any [[table]]: { i = [1, 60] } makes a table for each i, and in "
-                                "its texts {i}, {i-1} and {i+1} "
-                                "are numbers; with a step [3, 60, 3]; of two indices every pair"},
-                               {"deg", "deg: no unit of a study: a degree is written degree"}};
+const Meaning further_meanings[] = {
+    {"repeat",
+     "repeat in any [[table]]: { i = [1, 60] } makes a table for each i, and in "
+     "its texts {i}, {i-1} and {i+1} "
+     "are numbers; with a step [3, 60, 3]; of two indices every pair"},
+    {"deg", "deg: no unit of a study: a degree is written degree"}};
 
 const Meaning flag_words[] = {
     {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
@@ -273,7 +274,7 @@ std::vector<std::string> words_of_studies() {
   for (const Meaning& each : flag_words) words.push_back(each.word);
   for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
   for (const RecordWord& each : record_words()) words.emplace_back(each.name);
-  for (const Meaning& each : other_words) words.push_back(each.word);
+  for (const Meaning& each : further_meanings) words.push_back(each.word);
   return words;
 }
 
@@ -290,7 +291,7 @@ int explain_command(const std::string& word, std::ostream& out) {
   for (const Meaning& each : flag_words) {
     if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
   }
-  for (const Meaning& each : other_words) {
+  for (const Meaning& each : further_meanings) {
     if (word == each.word) found.push_back(each.text);
   }
   const bool is_known = !found.empty();
