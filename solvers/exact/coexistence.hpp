@@ -36,7 +36,7 @@ class Coexistence {
             Orbit<N, H>& orbit);
 
  private:
-  typename S::State start(int index, const mechanics::LinearSystem& system) const;
+  typename S::State start(int index, bool large_ones_grow, const mechanics::LinearSystem& system) const;
   void continue_from(const Orbits& neighbours, const mechanics::LinearSystem& system, Orbits& found);
 
   Flow<N, H>& flow_;
@@ -49,7 +49,7 @@ StableOrbits<N, H> Coexistence<N, H>::find(const mechanics::LinearSystem& system
   Orbits found = search_.begin(system);
   if (before != nullptr) continue_from(*before, system, found);
   for (int i = 0; found.failure == nullptr && i < wanted_.starts; ++i) {
-    typename S::State z = start(i, system);
+    typename S::State z = start(i, found.large_ones_grow, system);
     if (!search_.follow(z, search_.kOfStart, system, found)) found.unsettled.push_back(z);
     if (found.failure != nullptr) found.not_followed = wanted_.starts - 1 - i;
   }
@@ -76,10 +76,16 @@ template <int N, int H>
 void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits& found, Orbit<N, H>& orbit) {
   if (found.stable.empty()) {
     orbit = {};
-    orbit.status = found.failure != nullptr ? Status::failed : Status::not_periodic;
-    orbit.reason = found.failure != nullptr
-                       ? found.failure
-                       : none_stable(wanted_.starts, wanted_.most_multiple, found.found_unstable);
+    if (found.failure != nullptr) {
+      orbit.status = Status::failed;
+      orbit.reason = found.failure;
+    } else if (search_.grows(found)) {
+      orbit.status = Status::unbounded;
+      orbit.reason = kUnbounded;
+    } else {
+      orbit.status = Status::not_periodic;
+      orbit.reason = none_stable(wanted_.starts, wanted_.most_multiple, found.found_unstable);
+    }
     orbit.residual = kNone;
     orbit.coexisting = 0;
     orbit.unsettled = found.starts_unsettled();
@@ -105,13 +111,14 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits
 
 // The linear response, rest, and states of several times their displacements and the places of the bends.
 template <int N, int H>
-typename Sizes<N, H>::State Coexistence<N, H>::start(int index, const mechanics::LinearSystem& system) const {
+typename Sizes<N, H>::State Coexistence<N, H>::start(int index, bool large_ones_grow,
+                                                     const mechanics::LinearSystem& system) const {
   constexpr double kReach[] = {1.5, 4.0, 8.0};
   const StepEquations<N, H>& eq = flow_.equations();
   const Eigen::Index n = eq.masses();
   typename S::State z = mechanics::steady_response(system, 0.0);
   z.segment(n, n) *= eq.step;
-  if (!z.allFinite()) z.setZero();
+  if (!z.allFinite() || (large_ones_grow && search_.is_huge(z))) z.setZero();
   if (index == 0) return z;
   const double places = eq.bends.count() > 0 ? eq.bends.place.cwiseAbs().maxCoeff() : 0.0;
   const double at_rest = (eq.K_inverse * eq.force).cwiseAbs().rowwise().sum().maxCoeff();

@@ -42,7 +42,7 @@ class OrbitSearch {
  private:
   void fail_unbounded(Orbit<N, H>& orbit);
   static bool has_none(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped) {
-    return (system.monotone || system.bends.count() == 0) && is_unbounded(system, undamped);
+    return (system.monotone || system.bends.count() == 0) && is_unbounded_even_held(system, undamped);
   }
 
   Flow<N, H>& flow_;

@@ -30,6 +30,7 @@ struct StableOrbits {
   const char* failure = nullptr;                       // why nothing more is followed
   int not_followed = 0;                                // starts, after a failure
   bool found_unstable = false;
+  bool large_ones_grow = false;  // motions, at a resonance (is_unbounded)
   int passages = 0, newton_iterations = 0;
   double step = 0.0;  // [s], in which the states count the time
   Eigen::Index masses = 0;

@@ -10,6 +10,7 @@
 #include "solvers/exact/rest_search.hpp"
 #include "solvers/exact/scattered_state.hpp"
 #include "solvers/exact/stable_orbits.hpp"
+#include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/reasons.hpp"
@@ -46,8 +47,15 @@ class StableSearch {
     Orbits found;
     found.step = flow_.equations().step;
     found.masses = flow_.equations().masses();
+    found.large_ones_grow = is_unbounded(system, undamped_modes(system));
     if (flow_.equations().period > ShootingOptions{}.most_steps_a_period) found.failure = kTooManySteps;
     return found;
+  }
+  // Whether a state is far beyond what drives it. Where large motions grow, there is no orbit: what a period
+  // adds is then lost in rounding.
+  bool is_huge(const typename S::State& z) const {
+    constexpr double kHuge = 1e6;  // of the static response
+    return !(flow_.equations().energy_norm(z) <= kHuge * flow_.static_norm());
   }
   // A state that counts the time in `step` [s], at the flow's frequency.
   typename S::State in_steps(typename S::State z, double step) const {
@@ -58,7 +66,9 @@ class StableSearch {
 
   // The stable orbit to which Newton's method leads from here; it is added to `found`.
   Index find_near(const typename S::State& z, int multiple, const mechanics::LinearSystem& system,
-                  Orbits& found);
+                  Orbits& found) {
+    return approach(z, multiple, system, found).orbit;
+  }
   // The stable orbit to which the motion from z comes within so many periods; it is added too. z becomes the
   // motion's end.
   Index follow(typename S::State& z, int longest, const mechanics::LinearSystem& system, Orbits& found);
@@ -67,6 +77,10 @@ class StableSearch {
   // The orbit once more, in its own multiple of the period, to which the flow is left set.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
             Orbit<N, H>& orbit);
+
+  // Whether a motion that was given up grows: where large ones do, one that slides through a whole period
+  // takes in more than friction takes out, and does so the more from then on.
+  bool grows(const Orbits& found);
 
   // The motion from z over kMotion periods, as if it were an orbit of that multiple, to which the flow is
   // left set; the status of `orbit` stays.
@@ -77,6 +91,12 @@ class StableSearch {
   double distance(const typename S::State& z, const StableOrbit<N, H>& orbit) const;
 
  private:
+  struct Approach {
+    Index orbit;
+    double moved = 0.0;  // by Newton's method, before contacts were brought to rest; as distance()
+  };
+  Approach approach(const typename S::State& z, int multiple, const mechanics::LinearSystem& system,
+                    Orbits& found);
   bool is_over(Orbits& found) const;
   Index known(const typename S::State& z, double within, const Orbits& found) const;
   int likely_multiple(const std::vector<typename S::State>& trail) const;
@@ -97,8 +117,6 @@ class StableSearch {
   RestSearch<N, H> rest_;
   int most_multiple_;
   Passage<N, H> passage_;
-  // By Newton's method in find_near, before contacts were brought to rest; as distance().
-  double moved_ = 0.0;
 };
 
 template <int N, int H>
@@ -118,8 +136,8 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State&
       trail.push_back(z);
       if (const Index there = known(z, kThere, found)) return there;
     }
-    const Index near = find_near(z, likely_multiple(trail), system, found);
-    if (near && (moved_ < kNear || distance(z, found.stable[*near]) < kNear)) return near;
+    const auto [near, moved] = approach(z, likely_multiple(trail), system, found);
+    if (near && (moved < kNear || distance(z, found.stable[*near]) < kNear)) return near;
   }
   return std::nullopt;
 }
@@ -149,10 +167,11 @@ int StableSearch<N, H>::likely_multiple(const std::vector<typename S::State>& tr
 }
 
 template <int N, int H>
-typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename S::State& z, int multiple,
-                                                                 const mechanics::LinearSystem& system,
-                                                                 Orbits& found) {
-  if (is_over(found)) return std::nullopt;
+typename StableSearch<N, H>::Approach StableSearch<N, H>::approach(const typename S::State& z, int multiple,
+                                                                   const mechanics::LinearSystem& system,
+                                                                   Orbits& found) {
+  if (is_over(found)) return {};
+  Approach result;
   Orbit<N, H> orbit;
   orbit.z = z;
   orbit.multiple = multiple;
@@ -161,8 +180,8 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename 
   found.passages += multiple * orbit.passages;
   found.newton_iterations += orbit.newton_iterations;
   bool stable = false;
-  if (orbit.is_found()) {
-    moved_ = flow_.equations().energy_norm(orbit.z - z) / flow_.energy_scale(orbit.z);
+  if (orbit.is_found() && !(found.large_ones_grow && is_huge(orbit.z))) {
+    result.moved = flow_.equations().energy_norm(orbit.z - z) / flow_.energy_scale(orbit.z);
     Orbit<N, H> as_found;
     if (orbit.stuck_throughout != 0) {
       as_found = orbit;
@@ -178,7 +197,8 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename 
     kept.sequence = sequence_of(orbit);
   }
   if (multiple > 1) flow_.set_forcing(system);
-  return stable ? keep(orbit, std::move(kept), found) : std::nullopt;
+  if (stable) result.orbit = keep(orbit, std::move(kept), found);
+  return result;
 }
 
 // Moves an orbit with contacts that stick throughout to its rest position. The shift leaves the rest of the
@@ -358,6 +378,17 @@ void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbit
   judge_stability(flow_, orbit);
   orbit.passages = passages;
   orbit.newton_iterations += found.newton_iterations;
+}
+
+template <int N, int H>
+bool StableSearch<N, H>::grows(const Orbits& found) {
+  if (!found.large_ones_grow || flow_.equations().bends.count() > 0) return false;
+  return std::ranges::any_of(found.unsettled, [&](const typename S::State& z) {
+    walk_.pass(z, 0.0, flow_.equations().period, passage_, Tangent::none);
+    return passage_.failure == nullptr &&
+           std::ranges::all_of(passage_.segments,
+                               [&](const Segment<N, H>& each) { return flow_.mode(each.mode).stuck == 0; });
+  });
 }
 
 template <int N, int H>

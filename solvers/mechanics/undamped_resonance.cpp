@@ -51,13 +51,14 @@ BeyondTables beyond_tables(const mechanics::LinearSystem& system) {
   return beyond;
 }
 
-// Whether the excitation of this mode shape (phi^T M phi = 1) at this order exceeds what friction can take.
-bool outgrows_friction(const mechanics::LinearSystem& system, const BeyondTables& beyond,
-                       const Eigen::VectorXd& shape, Eigen::Index order) {
+// Whether the excitation of this mode shape (phi^T M phi = 1) at this order exceeds what contacts of these
+// limits can take.
+bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::VectorXd& limit,
+                       const BeyondTables& beyond, const Eigen::VectorXd& shape, Eigen::Index order) {
   const double drive = std::abs(std::complex<double>((shape.transpose() * system.force.col(order))(0)));
   const double force_size = system.force.col(order).norm() * shape.norm();
   if (drive <= 1e-14 * force_size) return false;
-  const double friction = system.limit.dot((system.W.transpose() * shape).cwiseAbs()) +
+  const double friction = limit.dot((system.W.transpose() * shape).cwiseAbs()) +
                           beyond.limit.dot((beyond.W.transpose() * shape).cwiseAbs());
   return std::numbers::pi * drive >= 4.0 * friction;
 }
@@ -98,7 +99,10 @@ std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) 
   return result;
 }
 
-bool is_unbounded(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes) {
+namespace {
+
+bool is_driven_harder(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes,
+                      const Eigen::VectorXd& limit) {
   if (modes.empty() || !bends_over_velocity(system)) return false;
   const BeyondTables beyond = beyond_tables(system);
   for (std::size_t order = 0; order < system.orders.size(); ++order) {
@@ -108,14 +112,25 @@ bool is_unbounded(const mechanics::LinearSystem& system, const std::vector<Undam
     Eigen::VectorXd in_phase = Eigen::VectorXd::Zero(system.masses()), in_quadrature = in_phase;
     for (const UndampedMode& mode : modes) {
       if (std::abs(frequency - mode.frequency) > 1e-12 * mode.frequency) continue;
-      if (outgrows_friction(system, beyond, mode.shape, column)) return true;
+      if (outgrows_friction(system, limit, beyond, mode.shape, column)) return true;
       in_phase += mode.shape * mode.shape.dot(system.force.col(column).real());
       in_quadrature += mode.shape * mode.shape.dot(system.force.col(column).imag());
     }
-    if (in_phase.norm() > 0.0 && outgrows_friction(system, beyond, in_phase, column)) return true;
-    if (in_quadrature.norm() > 0.0 && outgrows_friction(system, beyond, in_quadrature, column)) return true;
+    if (in_phase.norm() > 0.0 && outgrows_friction(system, limit, beyond, in_phase, column)) return true;
+    if (in_quadrature.norm() > 0.0 && outgrows_friction(system, limit, beyond, in_quadrature, column))
+      return true;
   }
   return false;
+}
+
+}  // namespace
+
+bool is_unbounded(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes) {
+  return is_driven_harder(system, modes, system.limit);
+}
+
+bool is_unbounded_even_held(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes) {
+  return is_driven_harder(system, modes, system.static_limit);
 }
 
 }  // namespace frahm::periodic

@@ -25,4 +25,9 @@ std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system);
 // grow, though smaller ones may settle.
 bool is_unbounded(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes);
 
+// The same with the static limits of the contacts: no force of friction balances this drive, however long the
+// contacts stick, so that no response exists. Between the two limits one may: rest that static friction
+// holds.
+bool is_unbounded_even_held(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes);
+
 }  // namespace frahm::periodic

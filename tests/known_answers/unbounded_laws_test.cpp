@@ -46,5 +46,25 @@ TEST_CASE("A damper whose table ends rising holds every resonance, though it beg
   CHECK(responses["energy_balance"] < kExact);
 }
 
+TEST_CASE("Static friction holds a mass at rest at its resonance, though a motion once begun grows") {
+  Network network = single_mass();
+  network.elements[2].has_static_force = true;
+  const auto with_static = [](double static_force) {
+    NetworkValues values = single_mass_values(1.0, 0.0, 0.1);
+    values.excitation[0].amplitude = 0.3;  // more than 4 F/pi = 0.127
+    values.second = {0.0, 0.0, static_force};
+    return values;
+  };
+  Responses responses(network);
+  const auto at_rest = responses.solve(with_static(0.5));  // more than 0.3
+  INFO(at_rest.reason);
+  CHECK(at_rest.status == Status::ok);
+  CHECK(responses["x_peak"] == 0.0);
+  // More than 4 F_s/pi: no force of friction balances it.
+  CHECK(responses.solve(with_static(0.2)).status == Status::unbounded);
+  // Not held at rest, and what slides grows.
+  CHECK(responses.solve(with_static(0.25)).status == Status::unbounded);
+}
+
 }  // namespace
 }  // namespace frahm::periodic::unbounded_laws_test
