@@ -184,6 +184,8 @@ void print_records(const Study& study, const periodic::LinearModes& modes, std::
   }
   for (const DrivingRecord& driving : all) {
     warn_of_drift(study, driving, out);
+    // A displacement by straight lines is a wish, of corners that are meant.
+    if (driving.records.front().jumps()) continue;
     warn_of_gap(study, driving, out);
     warn_of_sampling(study, driving, modes, out);
   }

@@ -64,6 +64,29 @@ TEST_CASE("Samples that are missing are told with their place and are no coarse 
   CHECK_THAT(told(folder, "file = \"uneven.csv\"\n", 20.0), !Contains("no sample"));
 }
 
+TEST_CASE("A displacement by straight lines has its corners on purpose: its samples are not called too few") {
+  const TemporaryFolder folder;
+  folder.write("pull.csv", "0,0\n1,0\n1.1,1\n10,1\n");
+  const auto text = [&](const std::string& interpolation) {
+    const Study study = parse_study(
+        "[study]\nschema = 1\nkind = \"transient\"\n[[mass]]\nname = \"roof\"\nmass = 2\n"
+        "[[element]]\nname = \"columns\"\ntype = \"spring\"\nbetween = [\"base\", \"roof\"]\nstiffness = "
+        "800\n[excitation]\n[[excitation.record]]\ndisplacement_of = \"base\"\nunit = \"m\"\nfile = "
+        "\"pull.csv\"\n" +
+            interpolation + "[transient]\n",
+        folder / "study.toml");
+    std::ostringstream out;
+    print_records(study, {.frequency = {1.0}, .damping = {0.0}, .shape = {{1.0}}}, out);
+    return out.str();
+  };
+  const std::string lines = text("interpolation = \"linear\"\n");
+  CHECK_THAT(lines, Contains("displacement of \"base\" by pull.csv: 4 samples") &&
+                        Contains("straight lines between them"));
+  CHECK_THAT(lines, !Contains("warning") && !Contains("note"));
+  folder.write("pull.csv", "0,0\n1,0.1\n2,1\n3,0.5\n");
+  CHECK_THAT(text(""), Contains("samples in a period; the cubic spline"));
+}
+
 TEST_CASE("Records of an axis have a line each, the first twelve") {
   const TemporaryFolder folder;
   const std::string text = told(
