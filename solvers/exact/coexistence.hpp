@@ -129,7 +129,6 @@ typename Sizes<N, H>::State Coexistence<N, H>::start(int index, bool large_ones_
 
 // Each once, in sized_solver_<N>_<H>.cpp.
 extern template class Coexistence<1, 1>;
-extern template class Coexistence<1, 2>;
 extern template class Coexistence<2, 1>;
 extern template class Coexistence<Eigen::Dynamic, Eigen::Dynamic>;
 

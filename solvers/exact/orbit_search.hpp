@@ -90,7 +90,6 @@ void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
 
 // Each once, in sized_solver_<N>_<H>.cpp.
 extern template class OrbitSearch<1, 1>;
-extern template class OrbitSearch<1, 2>;
 extern template class OrbitSearch<2, 1>;
 extern template class OrbitSearch<Eigen::Dynamic, Eigen::Dynamic>;
 

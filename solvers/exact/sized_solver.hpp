@@ -283,7 +283,6 @@ std::vector<Stretch> SizedSolver<N, H>::stretches() const {
 namespace frahm::periodic {
 
 extern template class SizedSolver<1, 1>;
-extern template class SizedSolver<1, 2>;
 extern template class SizedSolver<2, 1>;
 extern template class SizedSolver<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -201,7 +201,6 @@ class Flow {
 
 // The sizes that are known at compile time are instantiated in flow/flow_*.cpp, each in its own file.
 extern template class Flow<1, 1>;
-extern template class Flow<1, 2>;
 extern template class Flow<2, 1>;
 extern template class Flow<Eigen::Dynamic, Eigen::Dynamic>;
 

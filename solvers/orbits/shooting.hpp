@@ -98,7 +98,6 @@ void follow_tangent(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
 }
 
 extern template class Shooting<1, 1>;
-extern template class Shooting<1, 2>;
 extern template class Shooting<2, 1>;
 extern template class Shooting<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -131,7 +131,6 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
 }
 
 extern template class Integrals<1, 1>;
-extern template class Integrals<1, 2>;
 extern template class Integrals<2, 1>;
 extern template class Integrals<Eigen::Dynamic, Eigen::Dynamic>;
 

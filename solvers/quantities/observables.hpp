@@ -96,7 +96,6 @@ void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::Line
 }
 
 extern template class Observables<1, 1>;
-extern template class Observables<1, 2>;
 extern template class Observables<2, 1>;
 extern template class Observables<Eigen::Dynamic, Eigen::Dynamic>;
 
