@@ -25,9 +25,12 @@ SOURCE = HERE.parent.parent
 MOST_ENDS = 40  # of one target by findings: then it stops
 SECONDS, MEGABYTES = 20, 1024  # that one input may take
 
+sys.path.insert(0, str(SOURCE / "tests/studies/reading"))
+from wrong_studies import wrong_studies  # noqa: E402
+
 # Of each target: the greatest length of an input [bytes], and more seeds.
 TARGETS = {
-    "study": (12000, ["tests/studies/reading/wrong/*.toml", "studies/*/*.toml"]),
+    "study": (12000, ["studies/*/*.toml"]),
     "expression": (400, []),
     "csv": (4000, ["tests/studies/reading/wrong/data/*.csv", "tests/studies/reading/wrong/*.csv"]),
     "matrix": (4000, ["tests/studies/reading/wrong/*.mtx"]),
@@ -50,12 +53,14 @@ def seeds_for(target, work):
     files += [file for file in (HERE / "corpus" / target).glob("*")]
     folder = work / "seeds" / target
     folder.mkdir(parents=True, exist_ok=True)
+    seeds = [(file.name, file.read_bytes()) for file in sorted(files)]
+    if target == "study":
+        seeds += [(f"{name}.toml", text.encode()) for name, text in wrong_studies().items()]
     texts = []
-    for number, file in enumerate(sorted(files)):
-        data = file.read_bytes()
+    for number, (name, data) in enumerate(seeds):
         if len(data) > longest:
             continue
-        (folder / f"{number:04}_{file.name}").write_bytes(data)
+        (folder / f"{number:04}_{name}").write_bytes(data)
         texts.append(data)
     dictionary = work / f"{target}.words"
     dictionary.write_text(words_of(texts if target in ("study", "csv", "expression") else []))

@@ -83,26 +83,22 @@ TEST_CASE("a tuning without a schedule has no table of one") {
 }
 
 TEST_CASE("every study written out is the study that was read", "[slow]") {
-  for (const char* folder : {"/studies", "/tests/studies/reading/wrong"}) {
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(FRAHM_SOURCE_DIR + std::string(folder))) {
-      if (entry.path().extension() != ".toml" || entry.path().filename().string().starts_with("toml_"))
-        continue;
-      INFO(entry.path().string());
-      Study study;
-      try {
-        study = read_study(entry.path());
-      } catch (const StudyError&) {
-        continue;
-      }
-      const Study again = parse_study(toml_text(read_toml(study.source)), entry.path());
-      if (study.kind() == StudyKind::sweep) {
-        CHECK(plan_map(again, {}).fingerprint == plan_map(study, {}).fingerprint);
-      } else if (study.kind() == StudyKind::tune) {
-        CHECK(plan_tuning(again, {}).fingerprint == plan_tuning(study, {}).fingerprint);
-      } else {
-        CHECK(plan_without_map(again, {}).fingerprint == plan_without_map(study, {}).fingerprint);
-      }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(FRAHM_SOURCE_DIR "/studies")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path().string());
+    Study study;
+    try {
+      study = read_study(entry.path());
+    } catch (const StudyError&) {  // it needs the result of another study
+      continue;
+    }
+    const Study again = parse_study(toml_text(read_toml(study.source)), entry.path());
+    if (study.kind() == StudyKind::sweep) {
+      CHECK(plan_map(again, {}).fingerprint == plan_map(study, {}).fingerprint);
+    } else if (study.kind() == StudyKind::tune) {
+      CHECK(plan_tuning(again, {}).fingerprint == plan_tuning(study, {}).fingerprint);
+    } else {
+      CHECK(plan_without_map(again, {}).fingerprint == plan_without_map(study, {}).fingerprint);
     }
   }
 }
