@@ -141,4 +141,15 @@ void FRAHM_NAME(solve_, FRAHM_KERNEL)(const Pack& pack, double* workspace) {
   solve_by_size(pack, workspace);
 }
 
+// The same for all, from the one that runs wherever this build does.
+#if defined(FRAHM_LEAST_KERNEL)
+std::size_t workspace_size(const Shape& shape) {
+  Pack pack;
+  pack.shape = &shape;
+  Arena arena(nullptr);
+  const Work<AnyCounts> work(pack, arena);
+  return arena.used();
+}
+#endif
+
 }  // namespace frahm::periodic::nonstop
