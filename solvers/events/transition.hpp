@@ -223,6 +223,21 @@ void let_go(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w) 
   release(flow, j, forward, w);
 }
 
+// The stuck contact j of a loop lets go although others seemed to hold it: their limits are reached with its
+// own, to rounding. Those that it held in turn start from rest with it.
+template <int N, int H>
+void let_go_in_loop(Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
+  const ContactMask stuck = flow.mode(w.mode).stuck, rested = at_rest(flow, w);
+  const bool forward = flow.stuck_force(w.left, flow.mode(w.mode), j).value > 0.0;
+  let_go(flow, j, forward, w);
+  if (flow.mode(w.mode).stuck == stuck) release(flow, j, forward, w);
+  const ContactMask with_it = rested & ~at_rest(flow, w) & ~w.fresh;
+  w.fresh |= with_it;
+  for (const Eigen::Index i : list_of(with_it)) {
+    if (flow.equations().static_limit[i] == flow.equations().limit[i]) w.just_released |= bit(i);
+  }
+}
+
 // Stuck contacts whose force is at its limit and grows let go at once.
 template <int N, int H>
 void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
@@ -251,12 +266,7 @@ void settle_mode(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
   if (flow.equations().has_loops) {
     const ContactMask slid = hold_together(flow, letting_go, w);
     const ContactMask stuck = flow.mode(w.mode).stuck;
-    if (slid == 0 && (letting_go & stuck) != 0) {  // its force only just grows
-      const Eigen::Index j = first(letting_go);
-      const bool forward = flow.stuck_force(w.left, flow.mode(w.mode), j).value > 0.0;
-      let_go(flow, j, forward, w);
-      if (flow.mode(w.mode).stuck == stuck) release(flow, j, forward, w);
-    }
+    if (slid == 0 && (letting_go & stuck) != 0) let_go_in_loop(flow, first(letting_go), w);
     if (letting_go != 0) slide_on(flow, w);
   } else {
     release_at_limits(flow, w);

@@ -325,8 +325,7 @@ void EnergyAccount::add_whole_losses(const Mode& mode, const Eigen::MatrixXd& ro
     }
   }
   std::ranges::sort(account.sliding);
-  const auto twice = std::ranges::unique(account.sliding);
-  account.sliding.erase(twice.begin(), twice.end());
+  account.sliding.erase(std::unique(account.sliding.begin(), account.sliding.end()), account.sliding.end());
 }
 
 // The forms at the nodes of a step's first `length`.

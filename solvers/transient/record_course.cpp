@@ -254,7 +254,7 @@ std::string why_no_spline(const Record& record) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto first = y.begin() + static_cast<std::ptrdiff_t>(i > 0 ? i - 1 : 0);
     const auto end = y.begin() + static_cast<std::ptrdiff_t>(std::min(i + 3, y.size()));
-    const auto [low, high] = std::ranges::minmax(std::ranges::subrange(first, end));
+    const auto [low, high] = std::minmax_element(first, end);
     const auto look = [&](double by, double value, double at) {
       if (by <= strays) return;
       strays = by;
@@ -262,8 +262,8 @@ std::string why_no_spline(const Record& record) {
       extreme = value;
       when = at;
     };
-    look(low - all[i].least, all[i].least, all[i].least_at);
-    look(all[i].most - high, all[i].most, all[i].most_at);
+    look(*low - all[i].least, all[i].least, all[i].least_at);
+    look(all[i].most - *high, all[i].most, all[i].most_at);
   }
   if (strays <= kStrays * (most - least)) return "";
   std::ostringstream text;
