@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 namespace {

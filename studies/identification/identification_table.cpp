@@ -7,8 +7,8 @@
 #include <ostream>
 
 #include "studies/identification/identification_record.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 namespace {

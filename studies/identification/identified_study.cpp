@@ -11,9 +11,9 @@
 #include "solvers/mechanics/modes.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/motion/motion_record.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/toml_building.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {

@@ -10,7 +10,7 @@
 
 #include "results/store_error.hpp"
 #include "studies/map/value_match.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/quantities/units.hpp"
 
 namespace frahm::studies {
 namespace {

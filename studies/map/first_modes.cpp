@@ -7,7 +7,7 @@
 
 #include "solvers/mechanics/modes.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 #include "studies/record/group_columns.hpp"
 
 namespace frahm::studies {

@@ -7,7 +7,7 @@
 
 #include "studies/map/motion_cost.hpp"
 #include "studies/map/orbit_cost.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -11,7 +11,7 @@
 #include "studies/map/grid.hpp"
 #include "studies/map/open_tile.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -13,7 +13,7 @@
 
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/map_record.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 #include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "studies/map/output_quantities.hpp"
-#include "studies/reading/name_pattern.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {

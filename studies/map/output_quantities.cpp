@@ -8,7 +8,7 @@
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
-#include "studies/reading/name_pattern.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -7,7 +7,7 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 

@@ -9,7 +9,7 @@
 #include "results/layout.hpp"
 #include "solvers/transient/forced_motion.hpp"
 #include "solvers/transient/free_decay.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // One motion from given initial values: the solver's answer to a study of kind "decay" or "transient", its
 // record (results/FORMAT.md) and a short table of it.

@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "studies/map/output_quantities.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 BranchTable::BranchTable(const Study& study, std::size_t along,

@@ -33,7 +33,7 @@
 #include "studies/program/readable_size.hpp"
 #include "studies/program/record_table.hpp"
 #include "studies/program/scatter_table.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -20,9 +20,9 @@
 #include "studies/program/status_command.hpp"
 #include "studies/program/verify_command.hpp"
 #include "studies/program/version_command.hpp"
-#include "studies/reading/plain_text.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/plain_text.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -18,7 +18,7 @@
 #include "studies/motion/measurements.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/stored_study.hpp"
 

@@ -8,11 +8,11 @@
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/record_words.hpp"
-#include "studies/reading/element_keys.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_keys.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/quantities/units.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -12,7 +12,7 @@
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {

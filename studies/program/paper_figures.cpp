@@ -16,7 +16,7 @@
 #include "studies/program/external_program.hpp"
 #include "studies/program/figure_mark.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "studies/reading/plain_text.hpp"
+#include "studies/reading/text/plain_text.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -8,7 +8,7 @@
 #include "studies/program/motion_point.hpp"
 #include "studies/program/point_report.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 namespace {

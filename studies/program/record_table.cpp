@@ -11,7 +11,7 @@
 
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/transient/record_facts.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/quantities/units.hpp"
 
 namespace frahm::studies {
 namespace {

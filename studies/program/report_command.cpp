@@ -9,7 +9,7 @@
 #include "studies/program/paper_figures.hpp"
 #include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 #include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {

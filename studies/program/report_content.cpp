@@ -9,7 +9,7 @@
 #include "solvers/transient/motion_quantity.hpp"
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
-#include "studies/reading/name_pattern.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {

@@ -13,7 +13,7 @@
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/report_profile.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {

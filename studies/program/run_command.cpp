@@ -6,7 +6,7 @@
 #include "studies/program/run_at_once.hpp"
 #include "studies/program/run_map.hpp"
 #include "studies/program/run_tuning.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 
 namespace frahm::studies {
 

@@ -4,7 +4,7 @@
 #include <iosfwd>
 
 #include "studies/program/run_command.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/record/study_plan.hpp"
 #include "studies/tuning/tuning_result.hpp"
 

@@ -13,8 +13,8 @@
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/map_chunks.hpp"
 #include "studies/map/output_quantities.hpp"
-#include "studies/reading/decimal_digits.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/text/decimal_digits.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "studies/program/exit_code.hpp"
-#include "studies/reading/element_keys.hpp"
-#include "studies/reading/key_groups.hpp"
-#include "studies/reading/study_keys.hpp"
+#include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/keys/key_groups.hpp"
+#include "studies/reading/keys/study_keys.hpp"
 
 // JSON Schema from the table of keys: https://json-schema.org/draft/2020-12.
 namespace frahm::studies {

@@ -13,7 +13,7 @@
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance_checksum.hpp"

@@ -15,8 +15,8 @@
 #include "engine/output_lock.hpp"
 #include "results/part_file.hpp"
 #include "studies/program/figure_mark.hpp"
-#include "studies/reading/readable_file.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/readable_file.hpp"
+#include "studies/reading/text/study_source.hpp"
 #include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {

@@ -7,7 +7,7 @@
 #include "studies/program/point_report.hpp"
 #include "studies/python/binding.hpp"
 #include "studies/python/response_rows.hpp"
-#include "studies/reading/assignment.hpp"
+#include "studies/reading/study/assignment.hpp"
 
 // Periodic responses in memory: of one point in full, and of rows of points.
 namespace frahm::python {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "studies/python/binding.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/study/settings.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 
 // A study as Python holds it: read from a file, a text or a dictionary.
 namespace frahm::python {

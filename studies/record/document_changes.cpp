@@ -11,10 +11,10 @@
 #include <string_view>
 #include <utility>
 
-#include "studies/reading/study_keys.hpp"
-#include "studies/reading/toml_section.hpp"
-#include "studies/reading/toml_writing.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/quantities/units.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/toml_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 

@@ -9,7 +9,7 @@
 
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/rotation.hpp"
-#include "studies/reading/study_keys.hpp"
+#include "studies/reading/keys/study_keys.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "engine/fingerprint.hpp"
 #include "results/layout.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

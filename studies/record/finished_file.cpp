@@ -11,7 +11,7 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/store_error.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 #include "studies/record/provenance_checksum.hpp"
 
 namespace frahm::studies {

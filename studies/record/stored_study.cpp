@@ -1,6 +1,6 @@
 #include "studies/record/stored_study.hpp"
 
-#include "studies/reading/assignment.hpp"
+#include "studies/reading/study/assignment.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance_checksum.hpp"
 

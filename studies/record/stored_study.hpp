@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "results/map_reader.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

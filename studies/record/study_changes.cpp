@@ -6,11 +6,11 @@
 #include <sstream>
 #include <variant>
 
-#include "studies/reading/repetition.hpp"
-#include "studies/reading/toml_building.hpp"
-#include "studies/reading/toml_reading.hpp"
-#include "studies/reading/toml_section.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/keys/repetition.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 #include "studies/record/document_changes.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"

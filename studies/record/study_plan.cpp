@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "studies/reading/assignment.hpp"
+#include "studies/reading/study/assignment.hpp"
 #include "studies/record/fingerprint.hpp"
 
 namespace frahm::studies {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {

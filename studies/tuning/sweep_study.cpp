@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/reading/decimal_digits.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/toml_building.hpp"
-#include "studies/reading/toml_reading.hpp"
-#include "studies/reading/toml_section.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/decimal_digits.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 
 namespace frahm::studies {
 namespace {

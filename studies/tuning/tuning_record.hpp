@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "results/layout.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/tuning/tuning_result.hpp"
 
 // The record of a tuning in a result file: group /optimum, and /optimum/front along a trade-off

@@ -109,10 +109,10 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
   // HDF5's two files are two halves of one adapter, which share a header of their own.
   const std::map<std::string, std::set<std::string>> adapters{
       {"hdf5", {"results/hdf5.cpp", "results/hdf5_dataset.cpp", "results/hdf5_call.hpp"}},
-      {"toml\\+\\+|toml", {"studies/reading/toml_reading.cpp"}},
+      {"toml\\+\\+|toml", {"studies/reading/text/toml_reading.cpp"}},
       {"CLI", {"studies/program/command_line.cpp"}},
-      {"udunits2", {"studies/reading/units.cpp"}},
-      {"suitesparse/cholmod", {"studies/reading/matrix_market.cpp"}},
+      {"udunits2", {"studies/reading/quantities/units.cpp"}},
+      {"suitesparse/cholmod", {"studies/reading/data/matrix_market.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},
       {"mpi", {"engine/mpi.cpp"}},
       {"libdeflate", {"results/deflate.cpp"}},
@@ -121,7 +121,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
        {"solvers/identification/half_power.cpp", "solvers/identification/identification.cpp",
         "solvers/response/resonance_peak.cpp", "solvers/samples/scatter.cpp",
         "solvers/tuning/exchange/band_maxima.cpp", "solvers/tuning/stages/leap_place.cpp"}},
-      {"boost/tokenizer", {"studies/reading/csv_table.cpp"}},
+      {"boost/tokenizer", {"studies/reading/text/csv_table.cpp"}},
       {"boost/random",
        {"solvers/samples/sequence.cpp", "solvers/tuning/stages/starts.cpp",
         "studies/motion/measurements.cpp"}},

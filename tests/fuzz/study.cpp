@@ -1,6 +1,6 @@
 // Any text as a study: read and planned as `frahm check` does, up to its modes at the first point, or
 // refused.
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <string>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 int main() {
   using namespace frahm::studies;

@@ -12,7 +12,7 @@
 #include "studies/map/map_sample.hpp"
 #include "studies/map/statistics_record.hpp"
 #include "studies/program/memory_use.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_sample.hpp"
 #include "tests/results/temporary_directory.hpp"

@@ -9,7 +9,7 @@
 
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/program/point_command.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 #include "tests/study_path.hpp"
 
 namespace point_gradient_test {

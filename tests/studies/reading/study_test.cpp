@@ -1,4 +1,4 @@
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "studies/reading/repetition.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/keys/repetition.hpp"
+#include "studies/reading/study/settings.hpp"
 #include "studies/record/document_changes.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/small_tunings.hpp"

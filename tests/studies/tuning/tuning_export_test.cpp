@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "studies/map/map_plan.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 #include "studies/record/study_plan.hpp"
 #include "studies/tuning/schedule_table.hpp"
 #include "studies/tuning/sweep_study.hpp"

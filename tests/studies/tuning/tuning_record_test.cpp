@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/reading/units.hpp"
+#include "studies/reading/quantities/units.hpp"
 #include "studies/record/study_plan.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "tests/studies/small_tunings.hpp"

@@ -3,7 +3,7 @@
 #include <exception>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/settings.hpp"
 
 int main(int argc, char** argv) try {
   if (argc != 3) return 2;
