@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "studies/reading/study/settings.hpp"
+#include "studies/identification/grey_box_task.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/study/study_values.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -8,7 +8,8 @@
 
 #include "studies/identification/identification_record.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {

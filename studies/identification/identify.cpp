@@ -9,7 +9,8 @@
 #include "studies/identification/free_decay_start.hpp"
 #include "studies/identification/grey_box_task.hpp"
 #include "studies/identification/identification_result.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "engine/io_error.hpp"
+#include "studies/map/earlier_file.hpp"
 #include "studies/reading/text/study_source.hpp"
 #include "studies/record/finished_file.hpp"
 

@@ -6,8 +6,9 @@
 #include <algorithm>
 
 #include "solvers/mechanics/modes.hpp"
+#include "studies/map/first_modes.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/study_units.hpp"
 #include "studies/record/group_columns.hpp"
 
 namespace frahm::studies {

@@ -13,7 +13,9 @@
 
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/map_record.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/map/map_words.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 #include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {

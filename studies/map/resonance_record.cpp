@@ -11,7 +11,8 @@
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/response/resonance_peak.hpp"
 #include "studies/map/map_record.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 #include "studies/record/assembly_stage.hpp"
 
 namespace frahm::studies {

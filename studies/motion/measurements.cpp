@@ -13,6 +13,7 @@
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
+#include "studies/motion/measurements.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/reading/text/spelling.hpp"
 

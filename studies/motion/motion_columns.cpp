@@ -7,7 +7,8 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/motion/motion_columns.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 

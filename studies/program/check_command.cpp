@@ -25,6 +25,7 @@
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
 #include "studies/program/branch_cost.hpp"
+#include "studies/program/check_command.hpp"
 #include "studies/program/check_tuning.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/memory_use.hpp"
@@ -33,7 +34,9 @@
 #include "studies/program/readable_size.hpp"
 #include "studies/program/record_table.hpp"
 #include "studies/program/scatter_table.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {

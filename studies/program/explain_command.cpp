@@ -7,6 +7,7 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/explain_command.hpp"
 #include "studies/program/record_words.hpp"
 #include "studies/reading/keys/element_keys.hpp"
 #include "studies/reading/keys/study_keys.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "studies/program/plain_output.hpp"
 #include "studies/reading/text/plain_text.hpp"
 
 namespace frahm::studies {

@@ -11,6 +11,7 @@
 
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/transient/record_facts.hpp"
+#include "studies/program/record_table.hpp"
 #include "studies/reading/quantities/units.hpp"
 
 namespace frahm::studies {

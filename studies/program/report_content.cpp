@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "solvers/transient/motion_quantity.hpp"
+#include "studies/program/report_content.hpp"
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
 #include "studies/reading/text/name_pattern.hpp"

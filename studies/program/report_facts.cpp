@@ -12,8 +12,9 @@
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/motion_record.hpp"
+#include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/study_units.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {

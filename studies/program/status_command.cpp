@@ -13,6 +13,7 @@
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
+#include "studies/program/status_command.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "studies/record/finished_file.hpp"

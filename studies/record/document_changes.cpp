@@ -15,6 +15,7 @@
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/quantities/units.hpp"
 #include "studies/reading/text/toml_writing.hpp"
+#include "studies/record/document_changes.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -10,6 +10,7 @@
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/record/fingerprint.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -12,6 +12,7 @@
 #include "engine/tile_index.hpp"
 #include "results/store_error.hpp"
 #include "studies/reading/text/study_source.hpp"
+#include "studies/record/finished_file.hpp"
 #include "studies/record/provenance_checksum.hpp"
 
 namespace frahm::studies {

@@ -1,8 +1,10 @@
 #include "studies/record/stored_study.hpp"
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/assignment.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance_checksum.hpp"
+#include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
 

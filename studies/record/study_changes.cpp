@@ -15,6 +15,7 @@
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"
 #include "studies/record/stored_study.hpp"
+#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {

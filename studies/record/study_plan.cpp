@@ -6,6 +6,7 @@
 
 #include "studies/reading/study/assignment.hpp"
 #include "studies/record/fingerprint.hpp"
+#include "studies/record/study_plan.hpp"
 
 namespace frahm::studies {
 namespace {

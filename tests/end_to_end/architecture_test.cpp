@@ -69,26 +69,38 @@ TEST_CASE("rooms include each other only along the arrows") {
   }
 }
 
-// Within the solvers, from the ground up: each folder may include those before it.
-const std::vector<std::string> floors{
-    "laws",    "algebra", "samples", "mechanics", "flow",     "events",   "orbits",         "quantities",
-    "nonstop", "exact",   "smooth",  "transient", "response", "branches", "identification", "tuning"};
+// From the ground up: each folder of a room may include those before it.
+using Floors = std::vector<std::string>;
+const Floors of_solvers{"laws",     "algebra",    "samples",        "mechanics", "flow",   "events",
+                        "orbits",   "quantities", "nonstop",        "exact",     "smooth", "transient",
+                        "response", "branches",   "identification", "tuning"};
+const Floors of_reading{"text",   "quantities", "keys",  "study", "data",
+                        "system", "map",        "kinds", "."};  // ".": its own files
 
-TEST_CASE("a folder of the solvers includes only folders below it") {
-  const auto floor_of = [](const fs::path& file) {
-    const std::string folder = std::next(file.begin())->string();
-    return std::find(floors.begin(), floors.end(), folder) - floors.begin();
+void check_floors(const fs::path& room, const Floors& floors) {
+  const auto floor_of = [&](const fs::path& file) {
+    const std::string folder = file.lexically_relative(room).begin()->string();
+    const bool is_own_file = folder == file.filename();
+    return std::find(floors.begin(), floors.end(), is_own_file ? "." : folder) - floors.begin();
   };
-  for (const auto& file : sources_of("solvers")) {
+  for (const auto& file : sources_of(room.string())) {
     const bool is_known = floor_of(file) < static_cast<std::ptrdiff_t>(floors.size());
     INFO(file.string());
     CHECK(is_known);
     for (const Include& include : includes_of(file)) {
-      if (fs::path(include.name).begin()->string() != "solvers") continue;
+      if (!include.name.starts_with(room.string() + "/")) continue;
       INFO("includes " << include.name);
       CHECK(floor_of(include.name) <= floor_of(file));
     }
   }
+}
+
+TEST_CASE("a folder of the solvers includes only folders below it") {
+  check_floors("solvers", of_solvers);
+}
+
+TEST_CASE("a folder of the reading of studies includes only folders below it") {
+  check_floors("studies/reading", of_reading);
 }
 
 TEST_CASE("no source is a body that does not compile alone") {

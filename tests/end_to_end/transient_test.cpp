@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "solvers/response/periodic_response.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/end_to_end/runs.hpp"

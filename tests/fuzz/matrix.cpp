@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "studies/reading/data/matrix_file.hpp"
+#include "studies/reading/data/matrix_market.hpp"
 #include "studies/reading/text/study_source.hpp"
 #include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/outcome.hpp"

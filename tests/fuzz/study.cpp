@@ -10,6 +10,7 @@
 #include "studies/map/first_modes.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/program/modes_table.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/fuzz/outcome.hpp"
 
 namespace {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/study/study_context.hpp"
+
 namespace frahm::studies {
 namespace {
 

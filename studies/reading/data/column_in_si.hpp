@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "studies/reading/data/record_columns.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study_context.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 // Columns of measurements in SI, by the unit that their file or the study gives them.
 namespace frahm::studies {

@@ -1,3 +1,5 @@
+#include "studies/reading/data/csv_columns.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

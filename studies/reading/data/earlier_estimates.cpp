@@ -9,6 +9,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/reading/study/identify_choice.hpp"
+#include "studies/reading/study/study_context.hpp"
 #include "studies/reading/text/readable_file.hpp"
 
 namespace frahm::studies {

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/study_context.hpp"
 
 // What an identification found, as later studies use it: fits that fix it, samples that scatter with it.
 namespace frahm::studies {

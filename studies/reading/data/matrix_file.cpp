@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "results/data_reader.hpp"
+#include "studies/reading/data/matrix_market.hpp"
 #include "studies/reading/text/csv_table.hpp"
 #include "studies/reading/text/readable_file.hpp"
 #include "studies/reading/text/study_source.hpp"

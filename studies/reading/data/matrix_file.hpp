@@ -12,7 +12,4 @@ namespace frahm::studies {
 // Throws StudyError for a file that cannot be read, is of another form or holds what is not a finite number.
 Eigen::MatrixXd read_matrix_file(const std::filesystem::path& folder, const std::string& name);
 
-// The adapter of the library that reads Matrix Market.
-Eigen::MatrixXd read_matrix_market(const std::filesystem::path& path, const std::string& name);
-
 }  // namespace frahm::studies

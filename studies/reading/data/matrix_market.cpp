@@ -1,3 +1,5 @@
+#include "studies/reading/data/matrix_market.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <suitesparse/cholmod.h>

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "studies/reading/data/csv_columns.hpp"
+#include "studies/reading/data/hdf5_columns.hpp"
+
 namespace frahm::studies {
 
 std::string RawRecord::where(const RawColumn& column, std::size_t row) const {

@@ -58,10 +58,6 @@ struct ColumnReading {
   }
 };
 
-// The columns of a CSV or an HDF5 file.
-RawRecord read_csv_columns(const ColumnReading& reading, const std::filesystem::path& path);
-RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path);
-
 // Those of a file by its ending: .h5, .hdf5 and .nc are HDF5, others CSV.  folder: of the study.
 // Throws StudyError for a file that cannot be read, and for columns that are missing or not numbers.
 RawRecord read_columns(ColumnReading reading, const std::filesystem::path& folder);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

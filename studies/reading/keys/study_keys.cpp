@@ -9,7 +9,6 @@
 #include "solvers/flow/sizes.hpp"
 #include "studies/reading/keys/element_keys.hpp"
 #include "studies/reading/keys/study_words.hpp"
-#include "studies/reading/map/axis_reading.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -40,6 +39,7 @@ constexpr const char* formulas =
 
 constexpr double most_contacts = periodic::kMostContacts;
 constexpr double highest_order = 1000;  // events are searched on samples of the highest one over a period
+constexpr double most_axis_points = 1'000'000;
 constexpr double most_records = 1'000'000;
 constexpr double most_samples = 10'000'000;  // of a history: some hundred megabytes
 constexpr double longest_multiple = 64;      // the motions are followed for 324 periods and more

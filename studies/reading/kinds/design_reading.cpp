@@ -1,10 +1,19 @@
+#include "studies/reading/kinds/design_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/kinds/tune_reading.hpp"
+#include "studies/reading/study/assignment_reading.hpp"
+#include "studies/reading/study/dimension_check.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/study/study_context.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,3 +1,5 @@
+#include "studies/reading/kinds/fixed_estimates.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,10 @@
 
 #include "studies/reading/data/earlier_estimates.hpp"
 #include "studies/reading/kinds/identify_reading.hpp"
+#include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,9 +1,16 @@
+#include "studies/reading/kinds/identified_parameters.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "studies/reading/kinds/identify_reading.hpp"
+#include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,8 +1,11 @@
+#include "studies/reading/kinds/identify_check.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/map/corners.hpp"
+#include "studies/reading/map/grid_check.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -5,7 +5,12 @@
 #include <algorithm>
 
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/kinds/fixed_estimates.hpp"
+#include "studies/reading/kinds/identified_parameters.hpp"
+#include "studies/reading/kinds/record_reading.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/network_reading.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

@@ -5,7 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
+#include "studies/reading/text/study_source.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 // Shared by the readers of [identify] and its tables.
 namespace frahm::studies {
@@ -25,13 +29,10 @@ TomlSection identify_section(const StudySource& source, const TomlValue& root);
 std::vector<TomlSection> record_sections(const TomlSection& identify, const TomlValue& root);
 std::vector<TomlSection> parameter_sections(const TomlSection& identify, const TomlValue& root);
 
-// [[identify.parameter]]: of a grey box before the records, of a formula after them.
-void read_identified_parameters(IdentifyReading& reading, const TomlSection& section);
-
-// A [[identify.record]] with its data; its added mass or static displacement is already read.
-void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record);
-
-// `fixed_from`: estimates of earlier identifications replace the parameters of the same names.
-void read_fixed(IdentifyReading& reading, const TomlSection& identify);
+// [identify] and its tables into the study's choice. Their expressions are read before units are converted,
+// as those of the network; measurements and earlier estimates after. folder: of their files.
+void read_identification(const StudyContext& context, const TomlValue& root, Study& study);
+void read_measurements(const StudyContext& context, const TomlValue& root,
+                       const std::filesystem::path& folder, DataFiles data, Study& study);
 
 }  // namespace frahm::studies

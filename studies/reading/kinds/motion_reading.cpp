@@ -1,9 +1,17 @@
+#include "studies/reading/kinds/motion_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "solvers/mechanics/rotation.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/map/output_reading.hpp"
+#include "studies/reading/quantities/expression.hpp"
+#include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/network_reading.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
@@ -146,6 +154,14 @@ void read_motion(const StudyContext& context, const TomlValue& root, Study& stud
   if (auto* decay = std::get_if<DecayChoice>(&study.choice)) read_decay(reading, root, *decay);
   if (auto* transient = std::get_if<TransientChoice>(&study.choice))
     read_transient(reading, root, *transient);
+}
+
+void read_motion_output(const StudyContext& context, const TomlValue& root, Study& study) {
+  const TomlEntry* entry = find_entry(root, "output");
+  if (!entry) return;
+  const TomlSection section(context.source, entry->value, "[output]", "output", kind_name(study.kind()));
+  read_recorded(section, *study.map());
+  read_histories(context, section, "histories", study);
 }
 
 }  // namespace frahm::studies

@@ -1,3 +1,5 @@
+#include "studies/reading/kinds/record_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,10 @@
 #include "studies/reading/data/column_in_si.hpp"
 #include "studies/reading/data/record_columns.hpp"
 #include "studies/reading/kinds/identify_reading.hpp"
+#include "studies/reading/study/assignment_reading.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,9 +1,13 @@
+#include "studies/reading/kinds/tune_check.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "studies/reading/map/corners.hpp"
+#include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/study/study_values.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,10 +1,17 @@
+#include "studies/reading/kinds/tune_over_records.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "solvers/transient/motion_quantity.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/kinds/design_reading.hpp"
 #include "studies/reading/kinds/tune_reading.hpp"
+#include "studies/reading/kinds/tune_samples.hpp"
+#include "studies/reading/kinds/tune_start.hpp"
 #include "studies/reading/map/record_axis.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

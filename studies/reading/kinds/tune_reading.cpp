@@ -4,6 +4,13 @@
 
 #include <algorithm>
 
+#include "studies/reading/kinds/design_reading.hpp"
+#include "studies/reading/kinds/tune_samples.hpp"
+#include "studies/reading/kinds/tune_start.hpp"
+#include "studies/reading/map/orbits_reading.hpp"
+#include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

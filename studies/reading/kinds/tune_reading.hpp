@@ -1,10 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/quantities/units.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
+#include "studies/reading/study/study_values.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 // Shared by the readers of [tune] and its tables.
 namespace frahm::studies {
@@ -17,13 +24,8 @@ struct TuneReading {
   TuneChoice choice = {};
 };
 
-// The keys "start" and "global", and "tolerance".
-void read_start(const TomlSection& section, TuneChoice& choice);
+// The key "tolerance".
 void read_tolerance(const TomlSection& section, TuneChoice& choice);
-
-// The key "solver" of a tuning over a band, and whether its start suits it, once its designs are known.
-tuning::SolverKind read_solver(const TomlSection& section, const TuneChoice& choice);
-void check_map(const TuneReading& reading, const TomlSection& section);
 
 // A real-valued quantity of the network, by its name at a key.
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
@@ -51,20 +53,8 @@ tuning::Band read_range(const TomlSection& section, double si_factor);
 StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key,
                         std::optional<WantedDimension> wanted = std::nullopt);
 
-// Whether the numbers of the network depend on a parameter.
-bool network_depends_on(const Study& study, std::size_t parameter);
-
-// The tables of a tuning, in this order, once its band is known.
-void read_designs(TuneReading& reading);
-void read_limits(TuneReading& reading);
-void read_scenarios(TuneReading& reading);
-void read_columns(TuneReading& reading);
-
-// The samples of an [[axis]], each a scenario; after the designs and the scenarios.
-void read_samples(TuneReading& reading, const std::filesystem::path& folder, DataFiles data);
-// Refuses them.
-void refuse_samples(const TuneReading& reading);
-// Nor has it a quantile.
-void refuse_quantile(const TomlSection& section);
+// [tune], [[design]], [[constraint]], [[scenario]] and [[column]] into the study's choice, once units are
+// converted.
+void read_tuning(const StudyContext& context, const TomlValue& root, Study& study);
 
 }  // namespace frahm::studies

@@ -1,3 +1,5 @@
+#include "studies/reading/kinds/tune_samples.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,8 @@
 
 #include "studies/reading/kinds/tune_reading.hpp"
 #include "studies/reading/map/axis_reading.hpp"
-#include "studies/reading/map/sample_reading.hpp"
+#include "studies/reading/map/sample_axis_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,7 +1,10 @@
+#include "studies/reading/kinds/tune_start.hpp"
+
 #include <algorithm>
 #include <cstdint>
 
 #include "studies/reading/kinds/tune_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 

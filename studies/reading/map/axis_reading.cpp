@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "studies/reading/map/record_axis.hpp"
+#include "studies/reading/map/sample_axis_reading.hpp"
+#include "studies/reading/study/dimension_check.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

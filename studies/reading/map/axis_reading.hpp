@@ -1,17 +1,19 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/quantities/units.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
+#include "studies/reading/text/rules.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 // The parts of an [[axis]], whichever way its values are given.
 namespace frahm::studies {
-
-inline constexpr std::int64_t most_axis_points = 1'000'000;
 
 // Why a parameter of this name cannot run along an axis: there is none, it is computed, or it has an axis.
 struct AxisProblem {
@@ -37,10 +39,10 @@ void convert_axis(const TomlSection& section, ParameterAxis& axis);
 // Adds an axis of the study, by its index, to the dimension of its zip, or as a new dimension.
 void add_to_grid(const TomlSection& section, std::size_t axis, Study& study);
 
-// Whether an [[axis]] is one of samples: `samples = 1000`, or `from` a file.
-bool is_axis_of_samples(const TomlValue& table);
-// number: of the [[axis]], from 1.  folder: of its file.  data: as of read_axes().
-void read_axis_of_samples(const StudyContext& context, const TomlValue& table, std::size_t number,
-                          const std::filesystem::path& folder, DataFiles data, Study& study);
+// [[axis]] and [[coordinate]] into the map of a study. folder: of the axes' files.
+// data: where earlier results are left, samples of their estimates all stand at the values of the study.
+void read_axes(const StudyContext& context, const TomlValue& root, const std::filesystem::path& folder,
+               DataFiles data, Study& study);
+void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
 
 }  // namespace frahm::studies

@@ -1,10 +1,13 @@
+#include "studies/reading/map/branches_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "solvers/mechanics/element_table.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/study/assignment_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 // `branches` of [output].
 namespace frahm::studies {
@@ -110,21 +113,6 @@ void check_elements(const TomlSection& section, const Study& study) {
 }
 
 }  // namespace
-
-bool is_on_axis(double value, double of_axis) {
-  constexpr double rounding = 1e-9;
-  return std::abs(value - of_axis) <= rounding * std::max(std::abs(value), std::abs(of_axis));
-}
-
-std::vector<std::size_t> elements_with_events(const mechanics::Network& network) {
-  std::vector<std::size_t> found;
-  for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    const mechanics::Element& element = network.elements[e];
-    const bool has_events = mechanics::has_contact(element) || !element.bends.empty();
-    if (has_events && mechanics::told_by(network, e) == e) found.push_back(e);
-  }
-  return found;
-}
 
 void read_branches(const StudyContext& context, const TomlSection& output, Study& study) {
   const TomlValue* value = output.find("branches");

@@ -1,3 +1,5 @@
+#include "studies/reading/map/comparison_reading.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -5,7 +7,11 @@
 
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/map/orbits_reading.hpp"
+#include "studies/reading/map/output_reading.hpp"
 #include "studies/reading/system/network_reading.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

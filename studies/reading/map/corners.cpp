@@ -1,4 +1,4 @@
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/map/corners.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,9 +1,13 @@
+#include "studies/reading/map/generated_record_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "studies/reading/map/record_axis.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,12 +1,17 @@
+#include "studies/reading/map/grid_check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "solvers/mechanics/crank.hpp"
-#include "studies/reading/study/settings.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/map/corners.hpp"
+#include "studies/reading/study/characteristic.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/direction_reading.hpp"
+#include "studies/reading/system/element_problem.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,13 +1,16 @@
+#include "studies/reading/map/joint_estimates.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "studies/reading/data/earlier_estimates.hpp"
+#include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/map/axis_reading.hpp"
-#include "studies/reading/map/sample_reading.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

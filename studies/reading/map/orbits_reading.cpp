@@ -1,5 +1,7 @@
+#include "studies/reading/map/orbits_reading.hpp"
+
 #include "solvers/mechanics/bends.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 
 namespace frahm::studies {
 void check_sweep(const TomlSection& section, const Study& study) {

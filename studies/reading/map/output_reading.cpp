@@ -1,10 +1,15 @@
+#include "studies/reading/map/output_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "solvers/mechanics/coordinates.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/map/branches_reading.hpp"
+#include "studies/reading/map/profile_reading.hpp"
+#include "studies/reading/study/assignment_reading.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/name_pattern.hpp"
 #include "studies/reading/text/spelling.hpp"
 

@@ -1,3 +1,5 @@
+#include "studies/reading/map/profile_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +8,7 @@
 #include "studies/reading/study/profile.hpp"
 #include "studies/reading/text/name_pattern.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

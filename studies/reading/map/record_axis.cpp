@@ -4,6 +4,12 @@
 
 #include <algorithm>
 
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/map/generated_record_reading.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+
 namespace frahm::studies {
 namespace {
 

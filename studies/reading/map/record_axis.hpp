@@ -7,21 +7,14 @@
 #include <vector>
 
 #include "solvers/transient/generated_records.hpp"
+#include "studies/reading/map/generated_record_reading.hpp"
+#include "studies/reading/study/study_context.hpp"
 #include "studies/reading/system/driving_record.hpp"
 
 // An axis of records, [[axis]] records = [files] or { generate = ... }, and all records of a transient.
 namespace frahm::studies {
 
 inline constexpr const char* record_dimension = "record";  // its name in the map
-
-// Records that are made, one for each stream of the seed.
-struct GeneratedRecords {
-  std::string kind;  // white or kanai_tajimi
-  std::size_t count = 0;
-  transient::RandomSampling sampling;  // of the first
-  transient::GroundNoise ground;       // of white only its intensity
-};
-GeneratedRecords read_generated(const StudyContext& context, const TomlSection& axis);
 
 struct WrittenRecordAxis {
   Position position;  // of the [[axis]], or of [tune]

@@ -1,3 +1,5 @@
+#include "studies/reading/map/sample_axis_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,7 @@
 #include "solvers/samples/sequence.hpp"
 #include "studies/reading/map/axis_reading.hpp"
 #include "studies/reading/map/distribution_reading.hpp"
-#include "studies/reading/map/sample_reading.hpp"
+#include "studies/reading/map/joint_estimates.hpp"
 #include "studies/reading/map/sample_table.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/reading/text/decimal_digits.hpp"
@@ -133,12 +135,6 @@ ParameterAxis& add_axis(SampleReading& reading, std::size_t parameter) {
 
 std::string with_unit_of(const ParameterAxis& axis, const std::string& told) {
   return is_pure_number(axis.unit) ? told : fmt::format("{} ({})", told, axis.unit);
-}
-
-std::string quantile_name(double share) {
-  std::string name = fmt::format("q{:.6g}", 100.0 * share);
-  std::ranges::replace(name, '.', '_');
-  return name;
 }
 
 // from = "300 rpm" is the start of a range, not a file of samples.

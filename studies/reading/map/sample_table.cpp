@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "studies/reading/map/axis_reading.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
 #include "studies/reading/text/csv_table.hpp"
 
 namespace frahm::studies {

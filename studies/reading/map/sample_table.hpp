@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
 
 namespace frahm::studies {
 

@@ -1,6 +1,8 @@
+#include "studies/reading/study/assignment_reading.hpp"
+
 #include <fmt/format.h>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

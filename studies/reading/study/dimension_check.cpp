@@ -1,9 +1,10 @@
+#include "studies/reading/study/dimension_check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "studies/reading/quantities/expression_dimension.hpp"
-#include "studies/reading/study/study_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,9 +1,11 @@
+#include "studies/reading/study/parameter_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

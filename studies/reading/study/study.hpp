@@ -64,23 +64,12 @@ struct Study {
   std::vector<const StudyValue*> values_of_its_kind() const;
 };
 
-// Reads and checks a study. Tables and measurements it names are read too, from paths relative to its own.
-// Throws StudyError for anything wrong in it (`file:line:column: key: what was found, the rule, the nearest
-// key`) and for a file that cannot be read.
-Study read_study(const std::filesystem::path& path);
-
 // Whether the measurements and earlier results of an identification, and the records that drive a transient,
 // are read too. If not, its records have no columns, no samples, and no parameter is fixed.
 enum class DataFiles { read, leave };
 
-// The same for a given text; name: of the file, for messages; its folder holds the tables.
-Study parse_study(std::string text, const std::filesystem::path& name, DataFiles data = DataFiles::read);
-
 std::string_view kind_name(StudyKind kind);  // as the study writes it
 std::string_view kind_noun(StudyKind kind);  // in sentences: "a tuning"
-
-// The study with some number parameters replaced, and checked again.
-Study with_parameters(Study study, std::span<const Assignment> assignments);
 
 // Gives the parameters of a dimension of the map their SI values at one index (Parameters::list order).
 void set_along(const MapChoice& map, std::size_t dimension, std::size_t index, std::span<double> parameters);
@@ -91,13 +80,5 @@ std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const s
 // The unit of a number parameter in messages and for bare numbers in orbits, --at and --set: that of its
 // axis, band or bounds, else that of its definition, else "" for SI; with its factor to SI.
 UsualUnit usual_unit(const Study& study, std::size_t parameter);
-
-// Throws StudyError for a point (SI values of all parameters; derived ones are recomputed) at which a value
-// is not finite or out of range: its position in the study, the value, the parameters and the rule.
-// origin: who sets the parameters so, `scenario "rough"`; "" if the message need not say.
-void check_point(const Study& study, std::span<double> parameters, std::string_view origin = "");
-
-// Gives each crank the even orders that its crank/rod needs at a point; these may be more than on the grid.
-void set_crank_orders_at(Study& study, std::span<double> parameters);
 
 }  // namespace frahm::studies

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 

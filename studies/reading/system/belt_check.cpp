@@ -1,3 +1,5 @@
+#include "studies/reading/system/belt_check.hpp"
+
 #include <fmt/format.h>
 
 #include "solvers/mechanics/element_table.hpp"

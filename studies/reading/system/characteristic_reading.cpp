@@ -1,10 +1,15 @@
+#include "studies/reading/system/characteristic_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
 #include "solvers/flow/sizes.hpp"
+#include "studies/reading/quantities/expression.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/network_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,3 +1,5 @@
+#include "studies/reading/system/connectivity.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -6,7 +8,8 @@
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/study/characteristic.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

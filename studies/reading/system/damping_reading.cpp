@@ -1,5 +1,9 @@
+#include "studies/reading/system/damping_reading.hpp"
+
 #include <fmt/format.h>
 
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/network_reading.hpp"
 
 namespace frahm::studies {

@@ -6,8 +6,15 @@
 #include <cmath>
 
 #include "solvers/mechanics/rotation.hpp"
+#include "studies/reading/quantities/expression.hpp"
+#include "studies/reading/quantities/expression_dimension.hpp"
+#include "studies/reading/study/dimension_check.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/study/study_values.hpp"
+#include "studies/reading/system/connectivity.hpp"
 #include "studies/reading/system/network_reading.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,6 +1,13 @@
 #pragma once
 
-#include "studies/reading/study/study_reading.hpp"
+#include <span>
+#include <string_view>
+
+#include "solvers/mechanics/network.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
 
 namespace frahm::studies {
 
@@ -20,5 +27,9 @@ mechanics::Direction direction_of(const Study& study, const StudyDirection& alon
 // direction. origin: who sets the parameters so, as in check_point().
 void check_direction_at(const Study& study, const StudyDirection& along, std::span<const double> parameters,
                         std::string_view origin);
+
+// Gives each element `along` a combination its factors, once units are converted and all that may change is
+// read. Refuses factors that change within the study, and masses that no spring holds through levers.
+void set_directions(Study& study);
 
 }  // namespace frahm::studies

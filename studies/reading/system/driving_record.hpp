@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "studies/reading/study/study_context.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
 
 // The samples of records that drive a transient, from their files.

@@ -1,9 +1,12 @@
+#include "studies/reading/system/element_problem.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/study/characteristic.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 
 namespace frahm::studies {
 namespace {

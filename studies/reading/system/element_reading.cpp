@@ -1,3 +1,5 @@
+#include "studies/reading/system/element_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,14 @@
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/keys/element_keys.hpp"
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/characteristic.hpp"
+#include "studies/reading/study/study_values.hpp"
+#include "studies/reading/system/characteristic_reading.hpp"
 #include "studies/reading/system/direction_reading.hpp"
+#include "studies/reading/system/friction_law_reading.hpp"
+#include "studies/reading/system/iwan_reading.hpp"
+#include "studies/reading/system/network_limits.hpp"
 #include "studies/reading/system/network_reading.hpp"
 #include "studies/reading/text/spelling.hpp"
 

@@ -1,3 +1,5 @@
+#include "studies/reading/system/excitation_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +9,9 @@
 #include <utility>
 
 #include "solvers/mechanics/rotation.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/quantities/expression.hpp"
+#include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/network_reading.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
 #include "studies/reading/text/spelling.hpp"

@@ -1,3 +1,5 @@
+#include "studies/reading/system/friction_law_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

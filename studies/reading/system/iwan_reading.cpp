@@ -1,8 +1,12 @@
+#include "studies/reading/system/iwan_reading.hpp"
+
 #include <fmt/format.h>
 
 #include "solvers/laws/iwan.hpp"
 #include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/quantities/expression.hpp"
 #include "studies/reading/system/network_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 // An iwan element: sliders side by side, each a jenkins element.
 namespace frahm::studies {

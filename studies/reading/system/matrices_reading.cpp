@@ -1,9 +1,13 @@
+#include "studies/reading/system/matrices_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "studies/reading/data/matrix_file.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/system/network_limits.hpp"
 #include "studies/reading/system/network_reading.hpp"
 
 namespace frahm::studies {

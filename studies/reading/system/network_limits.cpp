@@ -1,3 +1,5 @@
+#include "studies/reading/system/network_limits.hpp"
+
 #include <algorithm>
 
 #include "solvers/flow/sizes.hpp"

@@ -5,6 +5,16 @@
 #include <algorithm>
 
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/quantities/expression.hpp"
+#include "studies/reading/study/dimension_check.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/system/belt_check.hpp"
+#include "studies/reading/system/connectivity.hpp"
+#include "studies/reading/system/damping_reading.hpp"
+#include "studies/reading/system/element_reading.hpp"
+#include "studies/reading/system/excitation_reading.hpp"
+#include "studies/reading/system/matrices_reading.hpp"
+#include "studies/reading/system/network_limits.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
 #include "studies/reading/system/signal_reading.hpp"
 #include "studies/reading/text/spelling.hpp"

@@ -6,7 +6,11 @@
 
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
 #include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/transient/record.hpp"
+#include "studies/reading/study/study_context.hpp"
 #include "studies/reading/system/network_reading.hpp"
 
 // [[excitation.record]]: measured or generated forces and motions of supports, of a transient.

@@ -1,6 +1,9 @@
 #include "studies/reading/system/signal_reading.hpp"
 
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/reading/system/direction_reading.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
 

@@ -1,9 +1,12 @@
+#include "studies/reading/system/unfit_elements.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "solvers/mechanics/smooth_laws.hpp"
-#include "studies/reading/study/study_reading.hpp"
+#include "studies/reading/study/characteristic.hpp"
+#include "studies/reading/study/study_values.hpp"
 
 // Elements that some kinds of study do not follow, or not beside others.
 namespace frahm::studies {

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 
 int main() {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "studies/motion/motion_record.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 
 namespace decay_words_test {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "studies/map/grid.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/study_path.hpp"
 
 namespace study_test {

@@ -16,6 +16,7 @@
 #include "results/map_writer.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/toml_building.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 #include "studies/reading/text/toml_writing.hpp"

@@ -8,7 +8,10 @@
 #include <set>
 
 #include "studies/reading/keys/repetition.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/text/toml_reading.hpp"
 #include "studies/record/document_changes.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/small_tunings.hpp"

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "studies/map/map_plan.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/text/toml_writing.hpp"
 #include "studies/record/study_plan.hpp"
 #include "studies/tuning/schedule_table.hpp"

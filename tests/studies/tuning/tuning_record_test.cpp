@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/quantities/units.hpp"
 #include "studies/record/study_plan.hpp"
 #include "studies/tuning/tuning_plan.hpp"

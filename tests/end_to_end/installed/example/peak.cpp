@@ -3,7 +3,8 @@
 #include <exception>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
 
 int main(int argc, char** argv) try {
   if (argc != 3) return 2;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "tests/studies/small_studies.hpp"
 

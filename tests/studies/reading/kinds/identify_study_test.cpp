@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "results/map_writer.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/record/study_plan.hpp"
 #include "tests/studies/temporary_folder.hpp"

@@ -4,6 +4,7 @@
 
 #include "studies/map/map_plan.hpp"
 #include "studies/motion/motion_record.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/record/study_plan.hpp"
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_record.hpp"

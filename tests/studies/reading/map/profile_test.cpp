@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "tests/studies/small_studies.hpp"
 

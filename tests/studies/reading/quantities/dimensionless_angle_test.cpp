@@ -2,7 +2,8 @@
 #include <numbers>
 #include <string>
 
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/settings.hpp"
 #include "studies/reading/study/study.hpp"
 #include "tests/studies/small_studies.hpp"
 

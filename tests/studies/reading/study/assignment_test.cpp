@@ -4,6 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include "studies/reading/map/grid_check.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/study_path.hpp"
 
 namespace assignment_test {

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 
 namespace dimension_check_test {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "tests/study_path.hpp"
 

@@ -7,6 +7,7 @@
 #include "solvers/laws/damper_bend.hpp"
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/laws/spring_bend.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 
 namespace characteristic_test {

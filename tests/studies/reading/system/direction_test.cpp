@@ -3,7 +3,9 @@
 #include <numbers>
 #include <string>
 
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/reading/system/direction_reading.hpp"
 #include "tests/studies/temporary_folder.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "results/map_writer.hpp"
 #include "studies/motion/motion_record.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "tests/studies/temporary_folder.hpp"

@@ -5,6 +5,7 @@
 
 #include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/quantities/quantity.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 
 namespace law_test {

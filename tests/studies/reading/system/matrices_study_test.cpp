@@ -10,6 +10,7 @@
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/map/map_plan.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 #include "tests/study_path.hpp"

@@ -1,36 +1,10 @@
-#include "studies/reading/study/settings.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "studies/reading/quantities/unit_words.hpp"
-#include "studies/reading/study/assignment.hpp"
 
 namespace frahm::studies {
-
-Study read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set) {
-  return with_settings(read_study(path), set);
-}
-
-Study with_settings(Study study, const std::vector<std::string>& set, std::string_view told_as) {
-  if (set.empty()) return study;
-  const std::vector<Assignment> assignments =
-      parse_assignments(study, told_as, fmt::format("{}", fmt::join(set, ",")));
-  return with_parameters(std::move(study), assignments);
-}
-
-std::vector<double> parameters_at(const Study& study, const std::vector<std::string>& at,
-                                  std::string_view told_as) {
-  std::vector<double> parameters = study.parameters.nominal();
-  if (!at.empty()) {
-    for (const Assignment& assignment :
-         parse_assignments(study, told_as, fmt::format("{}", fmt::join(at, ",")))) {
-      parameters[assignment.parameter] = assignment.value;
-    }
-  }
-  check_point(study, parameters);
-  return parameters;
-}
 
 SpokenValue spoken_value(const Study& study, std::size_t parameter, double si) {
   const UsualUnit usual = usual_unit(study, parameter);

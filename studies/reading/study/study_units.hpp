@@ -1,26 +1,13 @@
 #pragma once
 
-#include <filesystem>
-#include <span>
+#include <cstddef>
 #include <string>
-#include <string_view>
-#include <vector>
 
+#include "studies/reading/quantities/units.hpp"
 #include "studies/reading/study/study.hpp"
 
-// Parameter values from the command line, and back into its form.
+// Numbers in the study's own units.
 namespace frahm::studies {
-
-// The study with the values of --set (name=value each; none: unchanged). Throws StudyError.
-Study read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set);
-// The same of a study that was read. told_as: what messages call the place of the values.
-Study with_settings(Study study, const std::vector<std::string>& set, std::string_view told_as = "--set");
-
-// SI values of all parameters at one point: those of --at (name=value each), the rest as the study states
-// them. told_as: what messages call their place. Throws StudyError for a wrong name or value, or if a network
-// value is out of range there.
-std::vector<double> parameters_at(const Study& study, const std::vector<std::string>& at,
-                                  std::string_view told_as = "--at");
 
 // A number in the study's unit: {250, "rpm"}; unit "" if it has none or none is known.
 struct SpokenValue {
