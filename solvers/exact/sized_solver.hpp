@@ -81,14 +81,14 @@ class SizedSolver final : public ResponseSolver {
 
   void quantities(std::span<double> out) override {
     if (has_response() || tells_motion_)
-      observables_.evaluate(orbit_, told(), out);
+      observables_.evaluate(orbit_, reported_system(), out);
     else
       observables_.fill_missing(orbit_.status, orbit_.unsettled, out);
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out) override {
     follow_tangent(flow_, orbit_);
-    return gradient_.evaluate(orbit_, told(), values_, directions, out);
+    return gradient_.evaluate(orbit_, reported_system(), values_, directions, out);
   }
   const char* why_no_derivative(std::size_t quantity) const override { return gradient_.why_none(quantity); }
 
@@ -96,7 +96,7 @@ class SizedSolver final : public ResponseSolver {
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) override {
     follow_tangent(flow_, orbit_);
     OrbitObservation<N, H> observation(flow_, observed);
-    return observation.observe(orbit_, assembly_, told(), values_, directions, times, out);
+    return observation.observe(orbit_, assembly_, reported_system(), values_, directions, times, out);
   }
 
   History history(std::span<const double> phases) override;
@@ -104,7 +104,7 @@ class SizedSolver final : public ResponseSolver {
 
  private:
   bool has_response() const { return orbit_.is_found(); }
-  const mechanics::LinearSystem& told() const { return orbit_.multiple > 1 ? longer_ : system_; }
+  const mechanics::LinearSystem& reported_system() const { return orbit_.multiple > 1 ? longer_ : system_; }
   void weigh();
   const ResponseSummary& conclude();
 
@@ -198,7 +198,7 @@ std::vector<std::complex<double>> SizedSolver<N, H>::multipliers() {
 // searched again, or refused.
 template <int N, int H>
 void SizedSolver<N, H>::weigh() {
-  bool is_balanced = observables_.is_balanced(orbit_, told());
+  bool is_balanced = observables_.is_balanced(orbit_, reported_system());
   for (int way = 0; system_.monotone && !is_balanced && way < OrbitSearch<N, H>::kOtherWays; ++way) {
     if (search_.find_otherwise(way, system_, observables_.needs_stability(), orbit_))
       is_balanced = observables_.is_balanced(orbit_, system_);
@@ -227,7 +227,7 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
     Instant<N, H> instant;
     flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start),
                      orbit_.section + from_section, mode, instant);
-    result.time.push_back(phase / told().omega);
+    result.time.push_back(phase / reported_system().omega);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < n; ++mass) {
       result.columns[column++].push_back(sign * instant.z[mass]);

@@ -219,9 +219,9 @@ inline void search_segment(W& w, Mask among) {
 
 // In the lanes told.
 template <class W>
-inline void tell_extremes(const W& w, Mask told) {
+inline void tell_extremes(const W& w, Mask mask) {
   for (int t = 0; t < w.shape.traces; ++t) {
-    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
+    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(mask, x, view(array)[t]); };
     const Extreme &most = w.extreme[2 * t], &least = w.extreme[2 * t + 1];
     tell(w.pack.most, most.value);
     tell(w.pack.most_at, most.phase);

@@ -364,8 +364,8 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
 // Norm of the state and multiplier amid the rest: a shift of the position there grows by what the slide
 // leaves of it.
 template <class W>
-inline void judge_one_stop(W& w, const OneStop& stop, Mask told) {
-  const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
+inline void judge_one_stop(W& w, const OneStop& stop, Mask mask) {
+  const auto tell = [&](double* array, Lanes x) { *view(array) = select(mask, x, *view(array)); };
   Complex zeta[2], left[2];
   set_coordinates(w, stop.unit, zeta);
   for (int s = 0; s < w.modes; ++s)

@@ -117,7 +117,7 @@ std::vector<std::vector<double>> BranchRecord::samples(const periodic::Branch& b
     (column++)->push_back(special ? special->residual : kNone);
     const auto element =
         special && special->element
-            ? std::ranges::find(elements_, mechanics::told_by(study_.network, *special->element))
+            ? std::ranges::find(elements_, mechanics::reported_by(study_.network, *special->element))
             : elements_.end();
     column->push_back(element == elements_.end() ? none : none + flag_value(element - elements_.begin()));
   };

@@ -101,7 +101,7 @@ class Counter {
   Counter(const Study& study, std::size_t parameter, engine::ProgressStyle style)
       : study_(study), parameter_(parameter), form_(engine::progress_form(style)) {}
   ~Counter() {
-    if (told_) std::cerr << '\r' << std::setw(kWidth) << "" << '\r';
+    if (has_printed_) std::cerr << '\r' << std::setw(kWidth) << "" << '\r';
   }
   void operator()(const periodic::BranchPoint& point) {
     ++points_;
@@ -110,7 +110,7 @@ class Counter {
         form_ == engine::ProgressForm::bar || form_ == engine::ProgressForm::coloured_bar;
     if (!on_terminal || now < next_) return;
     next_ = now + std::chrono::milliseconds(100);
-    told_ = true;
+    has_printed_ = true;
     const SpokenValue value = spoken_value(study_, parameter_, point.parameter);
     const std::string text = fmt::format("{} points, {} = {:.6g} {}", points_,
                                          study_.parameters.list[parameter_].name, value.value, value.unit);
@@ -124,7 +124,7 @@ class Counter {
   std::size_t parameter_;
   engine::ProgressForm form_;
   std::size_t points_ = 0;
-  bool told_ = false;
+  bool has_printed_ = false;
   std::chrono::steady_clock::time_point next_ =
       std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
 };
@@ -155,12 +155,12 @@ void check_place(const BranchCommandOptions& options) {
 // parameters: SI.
 std::string beginning_of(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::span<const double> parameters) {
-  std::vector<std::size_t> told = axis_parameters_beside(study, along);
+  std::vector<std::size_t> named = axis_parameters_beside(study, along);
   for (const std::string& text : options.at)
-    for (const Assignment& each : parse_assignments(study, "--at", text)) told.push_back(each.parameter);
+    for (const Assignment& each : parse_assignments(study, "--at", text)) named.push_back(each.parameter);
   std::map<std::string, std::string> by_name{
       {study.parameters.list[along].name, spoken_text(study, along, parameters[along])}};
-  for (const std::size_t i : told)
+  for (const std::size_t i : named)
     by_name[study.parameters.list[i].name] = spoken_text(study, i, parameters[i]);
   std::vector<std::string> values;
   for (const auto& [name, value] : by_name) values.push_back(fmt::format("{} = {}", name, value));

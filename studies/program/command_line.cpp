@@ -371,7 +371,7 @@ void describe(CLI::App& program, CommandLine& line) {
 }
 
 // What CLI11 knows of an option, in our own words.
-CommandOption told(const CLI::Option& option) {
+CommandOption option_of(const CLI::Option& option) {
   CommandOption own{.what = option.get_description(),
                     .is_positional = option.get_positional(),
                     .is_required = option.get_required(),
@@ -385,11 +385,11 @@ CommandOption told(const CLI::Option& option) {
   return own;
 }
 
-Command told(const CLI::App& app, const std::string& name) {
+Command command_of(const CLI::App& app, const std::string& name) {
   Command own{.name = name, .what = app.get_description(), .foot = app.get_footer()};
-  for (const CLI::Option* option : app.get_options()) own.options.push_back(told(*option));
+  for (const CLI::Option* option : app.get_options()) own.options.push_back(option_of(*option));
   for (const CLI::App* each : app.get_subcommands(nullptr))
-    own.commands.push_back(told(*each, name + " " + each->get_name()));
+    own.commands.push_back(command_of(*each, name + " " + each->get_name()));
   return own;
 }
 
@@ -470,7 +470,7 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   describe(program, line);
   for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
   line.branch.command = line.run.command;
-  line.commands = told(program, "frahm");
+  line.commands = command_of(program, "frahm");
   if (const auto wrong = unfit_argument(argc, argv)) {
     complaints << "frahm: " << *wrong << '\n';
     return exit_code::wrong_input;

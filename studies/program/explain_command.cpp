@@ -116,7 +116,7 @@ bool names(const std::string& word, const periodic::QuantityRow& row) {
   return word == suffix || is_numbered(word, suffix) || (*name_of(row.owner) && word.ends_with("_" + suffix));
 }
 
-std::string told(const periodic::QuantityRow& row) {
+std::string text_of(const periodic::QuantityRow& row) {
   const std::string owner = name_of(row.owner);
   const std::string name = owner.empty() ? row.suffix : fmt::format("{}_{}", owner, row.suffix);
   std::string meaning = row.meaning;
@@ -138,7 +138,7 @@ std::vector<std::string> quantities_called(const std::string& word) {
   }
   std::vector<std::string> found;
   for (const auto& row : periodic::quantity_table()) {
-    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(told(row));
+    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(text_of(row));
   }
   return found;
 }
@@ -156,7 +156,7 @@ std::string written_range(mechanics::Range range) {
 }
 
 // "stiffness = k [N/m], of what turns [N m/rad], >= 0".
-std::string told(const mechanics::ValueKey& value, bool is_optional) {
+std::string text_of(const mechanics::ValueKey& value, bool is_optional) {
   std::string text = value.key;
   if (*value.symbol) text += fmt::format(" = {}", value.symbol);
   const Quantity along = element_quantity(value.dimension, false),
@@ -167,7 +167,7 @@ std::string told(const mechanics::ValueKey& value, bool is_optional) {
 }
 
 // "; for kind = sweep or transient" where not all forms of the section have the key.
-std::string owners_told(const KeyOwners& owners) {
+std::string owners_text(const KeyOwners& owners) {
   if (*owners.of == '\0') return "";
   const std::string decider = *owners.decider ? fmt::format("{} = ", owners.decider) : "";
   return fmt::format("; for {}{}", decider, listed(separated(owners.of), " or "));
@@ -177,11 +177,11 @@ std::string owners_told(const KeyOwners& owners) {
 std::string meaning_of(const StudyKey& key) {
   const std::vector<std::string> words = words_of(key);
   const std::string choices = words.empty() ? "" : fmt::format(" ({})", listed(words, " or "));
-  return key.meaning + choices + owners_told(key.owners);
+  return key.meaning + choices + owners_text(key.owners);
 }
 
 // The values of a type of element, and what stands of its other keys in the table of keys.
-std::string keys_told(const std::string& type) {
+std::string keys_text(const std::string& type) {
   const mechanics::ElementKind& kind = kind_called(type);
   std::string text;
   for (const std::string& key : keys_of_type(type)) {
@@ -192,7 +192,7 @@ std::string keys_told(const std::string& type) {
     }
     const bool is_optional =
         found == &kind.slope || found == &kind.cubic || (found == &kind.second && kind.second_is_optional);
-    text += "\n  " + (found ? told(*found, is_optional)
+    text += "\n  " + (found ? text_of(*found, is_optional)
                             : fmt::format("{}: {}", key, meaning_of(study_key("element", key))));
   }
   return text;
@@ -206,7 +206,7 @@ std::vector<std::string> types_called(const std::string& word) {
         type == iwan ? fmt::format("the sum of its sliders, each a jenkins: {}", kind_called(type).force)
                      : kind_called(type).force;
     found.push_back(fmt::format("{}: type of an [[element]], u across it, v = u': its force is {}{}", type,
-                                force, keys_told(type)));
+                                force, keys_text(type)));
   }
   return found;
 }

@@ -252,7 +252,7 @@ bool is_called(const RecordWord& word, std::string_view name) {
   return fits(word.name, name) || plain_end(word.name) == name;
 }
 
-std::string told(const RecordWord& word) {
+std::string text_of(const RecordWord& word) {
   return fmt::format("{}: in results ({}): {}", word.name, word.of, word.meaning);
 }
 
@@ -265,7 +265,7 @@ std::span<const RecordWord> record_words() {
 std::vector<std::string> record_words_named(std::string_view name) {
   std::vector<std::string> found;
   for (const RecordWord& each : all_words) {
-    if (name == each.name) found.push_back(told(each));
+    if (name == each.name) found.push_back(text_of(each));
   }
   return found;
 }
@@ -279,7 +279,7 @@ std::vector<std::string> record_words_called(std::string_view name) {
   std::vector<std::string> found;
   for (const RecordWord& each : all_words) {
     const bool is_longest = std::string_view(each.name).size() == longest;
-    if (is_called(each, name) && (is_longest || name == each.name)) found.push_back(told(each));
+    if (is_called(each, name) && (is_longest || name == each.name)) found.push_back(text_of(each));
   }
   return found;
 }

@@ -15,19 +15,19 @@ Study read_study_with(const std::filesystem::path& path, const std::vector<std::
   return with_settings(read_study(path), set);
 }
 
-Study with_settings(Study study, const std::vector<std::string>& set, std::string_view told_as) {
+Study with_settings(Study study, const std::vector<std::string>& set, std::string_view option) {
   if (set.empty()) return study;
   const std::vector<Assignment> assignments =
-      parse_assignments(study, told_as, fmt::format("{}", fmt::join(set, ",")));
+      parse_assignments(study, option, fmt::format("{}", fmt::join(set, ",")));
   return with_parameters(std::move(study), assignments);
 }
 
 std::vector<double> parameters_at(const Study& study, const std::vector<std::string>& at,
-                                  std::string_view told_as) {
+                                  std::string_view option) {
   std::vector<double> parameters = study.parameters.nominal();
   if (!at.empty()) {
     for (const Assignment& assignment :
-         parse_assignments(study, told_as, fmt::format("{}", fmt::join(at, ",")))) {
+         parse_assignments(study, option, fmt::format("{}", fmt::join(at, ",")))) {
       parameters[assignment.parameter] = assignment.value;
     }
   }

@@ -221,7 +221,7 @@ bool is_same(const Fact& a, const Fact& b) {
                             [](const Item& one, const Item& other) { return is_same(one, other); });
 }
 
-std::string told(const Fact& fact) {
+std::string text_of(const Fact& fact) {
   if (!fact.is_list) return fact.items.front().text;
   std::string text;
   for (const Item& item : fact.items) text += (text.empty() ? "" : ", ") + item.text;
@@ -229,7 +229,7 @@ std::string told(const Fact& fact) {
 }
 
 std::string change_of(const Fact& before, const Fact& after) {
-  const std::string first = told(before), second = told(after);
+  const std::string first = text_of(before), second = text_of(after);
   if (first != second) return fmt::format("{}: {}, now {}", before.name, first, second);
   // Two long lists of as many values: the first that differs.
   std::size_t at = 0, different = 0;
@@ -289,12 +289,12 @@ std::vector<std::string> changes_of_facts(const Facts& before, const Facts& afte
     if (found)
       tell(change_of(fact, *found));
     else
-      tell(table.empty() ? fmt::format("{}: {}, now gone", fact.name, told(fact)) : table + ": gone");
+      tell(table.empty() ? fmt::format("{}: {}, now gone", fact.name, text_of(fact)) : table + ": gone");
   }
   for (const Fact& fact : after.list) {
     if (before.find(fact.name)) continue;
     const std::string table = missing_table(fact, before);
-    tell(table.empty() ? fmt::format("{}: new, {}", fact.name, told(fact)) : table + ": new");
+    tell(table.empty() ? fmt::format("{}: new, {}", fact.name, text_of(fact)) : table + ": new");
   }
   for (const Sequence& sequence : before.sequences) {
     const auto found = std::ranges::find(after.sequences, sequence.name, &Sequence::name);
@@ -326,7 +326,7 @@ std::vector<std::string> rounding_changes(const TomlValue& kept, const TomlValue
     if (!found || !is_same(fact, *found)) continue;
     const auto is_exact = [](const Item& one, const Item& other) { return one.si == other.si; };
     if (!std::ranges::equal(fact.items, found->items, is_exact))
-      changes.push_back(change_of_unit(fact.name, told(fact), told(*found)));
+      changes.push_back(change_of_unit(fact.name, text_of(fact), text_of(*found)));
   }
   return changes;
 }

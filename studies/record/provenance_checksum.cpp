@@ -22,14 +22,14 @@ std::string checksum_of(std::vector<results::Text> texts) {
 void refuse_changed_provenance(const results::MapReader& result) {
   if (!result.has_group("provenance")) return;
   const std::vector<results::Text> texts = result.texts("provenance");
-  const auto told = std::ranges::find(texts, checksum_text, &results::Text::first);
-  if (told == texts.end()) return;
-  if (const std::string found = checksum_of(texts); found != told->second)
+  const auto stated = std::ranges::find(texts, checksum_text, &results::Text::first);
+  if (stated == texts.end()) return;
+  if (const std::string found = checksum_of(texts); found != stated->second)
     throw results::StoreError(
         result.path().string() + ":/provenance",
         fmt::format("its texts, such as the study, were changed after they were written: "
                     "their checksum is {}, not {}",
-                    found, told->second),
+                    found, stated->second),
         "");
 }
 

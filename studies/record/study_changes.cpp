@@ -33,7 +33,7 @@ TomlValue document_of(const Study& study) {
   TomlValue document = with_repetitions(study.source, read_toml(study.source));
   TomlEntry* parameters = entry_of(std::get<TomlTable>(document.content), "parameters");
   if (!parameters || !parameters->value.as<TomlTable>()) return document;
-  TomlTable told;
+  TomlTable in_this_run;
   for (TomlEntry& entry : std::get<TomlTable>(parameters->value.content)) {
     const auto names = study.parameters.names();
     const auto found = std::ranges::find(names, entry.key);
@@ -42,9 +42,9 @@ TomlValue document_of(const Study& study) {
     if (is_on_axis(study, i)) continue;
     if (const auto* number = std::get_if<double>(&study.parameters.list[i].definition))
       entry.value = toml_parameter(study, i, *number);
-    told.push_back(std::move(entry));
+    in_this_run.push_back(std::move(entry));
   }
-  parameters->value.content = std::move(told);
+  parameters->value.content = std::move(in_this_run);
   return document;
 }
 
@@ -66,7 +66,7 @@ std::vector<std::string> changed_roundings(const Study& kept, const Study& now,
 }
 
 // None where the studies say the same.
-std::vector<std::string> told_changes(const Study& kept, const Study& now) {
+std::vector<std::string> changes_between(const Study& kept, const Study& now) {
   if (kept.kind() != now.kind())
     return {fmt::format("kind: \"{}\", now \"{}\"", kind_name(kept.kind()), kind_name(now.kind()))};
   const TomlValue kept_document = document_of(kept), document = document_of(now);
@@ -74,7 +74,7 @@ std::vector<std::string> told_changes(const Study& kept, const Study& now) {
   return changes.empty() ? changed_roundings(kept, now, kept_document, document) : changes;
 }
 
-constexpr const char* nothing_told =
+constexpr const char* nothing_found =
     "nothing in the study itself: the content of a file that it reads, or what this version of frahm "
     "computes";
 
@@ -103,8 +103,8 @@ std::vector<std::string> changes_of_branch(const results::MapReader& result, con
 }  // namespace
 
 std::vector<std::string> study_changes(const Study& kept, const Study& now) {
-  std::vector<std::string> changes = told_changes(kept, now);
-  if (changes.empty()) changes.emplace_back(nothing_told);
+  std::vector<std::string> changes = changes_between(kept, now);
+  if (changes.empty()) changes.emplace_back(nothing_found);
   return changes;
 }
 
@@ -112,12 +112,12 @@ std::vector<std::string> changes_since(const results::MapReader& result, const s
                                        const StudyPlan& now) {
   std::vector<std::string> changes = changes_of_branch(result, now);
   try {
-    for (std::string& change : told_changes(read_stored_study(result, file).study, now.study))
+    for (std::string& change : changes_between(read_stored_study(result, file).study, now.study))
       changes.push_back(std::move(change));
   } catch (const StudyError&) {  // its tables may be gone, or it was written by another version
     return changes;
   }
-  if (changes.empty()) changes.emplace_back(nothing_told);
+  if (changes.empty()) changes.emplace_back(nothing_found);
   return changes;
 }
 

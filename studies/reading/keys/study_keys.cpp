@@ -497,7 +497,7 @@ bool Limits::hold(double number) const {
   return (above ? number > least : number >= least) && (below ? number < most : number <= most);
 }
 
-std::string Limits::told(std::string_view kind) const {
+std::string Limits::text(std::string_view kind) const {
   if (least == most) return fmt::format("only {}", least);
   const bool has_end = most < std::numeric_limits<double>::infinity();
   const std::string range = !has_end         ? fmt::format("{} {}", above ? ">" : ">=", least)

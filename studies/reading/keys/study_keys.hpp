@@ -66,7 +66,7 @@ struct Limits {
 
   bool hold(double number) const;
   // "from 2 to 10000, or 0", "> 0".  kind: "a whole number ".
-  std::string told(std::string_view kind = "") const;
+  std::string text(std::string_view kind = "") const;
 };
 
 inline constexpr Limits positive{.least = 0.0, .above = true};
@@ -98,9 +98,9 @@ struct Inside {
 struct StudyKey {
   // more: what is to be said beside, in any order.
   template <class... More>
-  constexpr StudyKey(const char* in, const char* name, KeyForm what, Use changes, const char* told,
+  constexpr StudyKey(const char* in, const char* name, KeyForm what, Use changes, const char* what_it_means,
                      const More&... more)
-      : section(in), key(name), form(what), use(changes), meaning(told) {
+      : section(in), key(name), form(what), use(changes), meaning(what_it_means) {
     (take(more), ...);
   }
 

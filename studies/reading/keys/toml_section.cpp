@@ -123,7 +123,7 @@ void TomlSection::check_limits(std::string_view key, double number, std::string_
   if (limits(key).hold(number)) return;
   const StudyKey& row = study_key(section_, key);
   const std::vector<std::string> words = quoted(words_of(row));
-  fail(rules::out_of_range, key, "{} is out of range: {}{} ({})", number, limits(key).told(kind),
+  fail(rules::out_of_range, key, "{} is out of range: {}{} ({})", number, limits(key).text(kind),
        words.empty() ? "" : ", or " + listed(words, " or "), row.meaning);
 }
 

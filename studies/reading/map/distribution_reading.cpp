@@ -72,7 +72,7 @@ void read_bounded(const TomlSection& section, Distribution& distribution) {
 }
 
 // "normal, mean 5, deviation 0.5": what the study says.
-std::string told(const TomlSection& section, const std::string& name) {
+std::string text_of(const TomlSection& section, const std::string& name) {
   std::string text = name;
   for (const char* key : {"mean", "median", "mode", "deviation", "variation", "lower", "upper"}) {
     if (section.find(key)) text += fmt::format(", {} {:.6g}", key, section.number(key));
@@ -94,7 +94,7 @@ ReadDistribution read_distribution(const TomlSection& section) {
     if (section.find("lower") || section.find("upper")) read_ends(section, distribution);
     check_cuts(section, distribution);
   }
-  return {distribution, told(section, name)};
+  return {distribution, text_of(section, name)};
 }
 
 }  // namespace frahm::studies

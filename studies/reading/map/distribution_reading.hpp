@@ -9,7 +9,7 @@ namespace frahm::studies {
 
 struct ReadDistribution {
   samples::Distribution distribution;  // in the unit of the section
-  std::string told;                    // for readers, without the unit: "normal, mean 5, deviation 0.5"
+  std::string text;                    // for readers, without the unit: "normal, mean 5, deviation 0.5"
 };
 
 // distribution = "normal" with mean and deviation, or variation (deviation over mean); "lognormal" with mean

@@ -109,11 +109,12 @@ void check_derived(const Study& study, const Checked& checked, std::span<const d
   const double value = parameters[checked.reads.front()];
   if (std::isfinite(value)) return;
   if (const auto* table = std::get_if<TableOf>(&checked.parameter->definition)) {
-    const auto told = [&](double si) { return spoken_text(study, table->of, si); };
+    const auto written = [&](double si) { return spoken_text(study, table->of, si); };
     fail(rules::out_of_range, study, checked, parameters,
          fmt::format("the table \"{}\" has no value", table->file),
          fmt::format("it covers {} from {} to {}, here {}", study.parameters.list[table->of].name,
-                     told(table->table.x.front()), told(table->table.x.back()), told(parameters[table->of])));
+                     written(table->table.x.front()), written(table->table.x.back()),
+                     written(parameters[table->of])));
   }
   fail(rules::out_of_range, study, checked, parameters, "has no value", "must be a finite number");
 }

@@ -70,7 +70,7 @@ std::size_t take_estimate(SampleReading& reading, const Wanted& wanted, const Ea
   } else {
     set_axis_unit(reading.context.units.parse(unit), parameter, axis);
   }
-  reading.choice.told.back() = with_unit_of(
+  reading.choice.texts.back() = with_unit_of(
       axis,
       fmt::format("normal, mean {:.6g}, deviation {:.6g}, as identified", earlier.values[i], deviation));
   return i;

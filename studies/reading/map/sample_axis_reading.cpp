@@ -28,7 +28,7 @@ std::vector<samples::Distribution> read_distributions(const TomlValue& table, Sa
     ParameterAxis& added = add_axis(reading, parameter);
     added.position = section.position();
     read_axis_unit(reading.context, section, reading.study.parameters.list[parameter], added);
-    reading.choice.told.back() = with_unit_of(added, read.told);
+    reading.choice.texts.back() = with_unit_of(added, read.text);
     distributions.push_back(read.distribution);
   }
   return distributions;
@@ -92,7 +92,7 @@ void take_table(SampleReading& reading, const std::filesystem::path& folder) {
       added.si_factor = column.axis.si_factor;
       added.values = std::move(column.axis.values);
       reading.study.parameters.list[added.parameter].unit_of_range = column.unit;
-      reading.choice.told.back() = with_unit_of(added, "as listed");
+      reading.choice.texts.back() = with_unit_of(added, "as listed");
     }
   } catch (const StudyError& error) {
     section.fail(error.rule(), "from", "{}", error.what());
@@ -129,12 +129,12 @@ ParameterAxis& add_axis(SampleReading& reading, std::size_t parameter) {
   std::vector<ParameterAxis>& axes = reading.study.map()->axes;
   axes.push_back(std::move(axis));
   reading.choice.axes.push_back(axes.size() - 1);
-  reading.choice.told.emplace_back();
+  reading.choice.texts.emplace_back();
   return axes.back();
 }
 
-std::string with_unit_of(const ParameterAxis& axis, const std::string& told) {
-  return is_pure_number(axis.unit) ? told : fmt::format("{} ({})", told, axis.unit);
+std::string with_unit_of(const ParameterAxis& axis, const std::string& text) {
+  return is_pure_number(axis.unit) ? text : fmt::format("{} ({})", text, axis.unit);
 }
 
 // from = "300 rpm" is the start of a range, not a file of samples.

@@ -27,7 +27,7 @@ struct SampleReading {
 ParameterAxis& add_axis(SampleReading& reading, std::size_t parameter);
 
 // What is told of an axis, with its unit.
-std::string with_unit_of(const ParameterAxis& axis, const std::string& told);
+std::string with_unit_of(const ParameterAxis& axis, const std::string& text);
 
 // Whether an [[axis]] is one of samples: `samples = 1000`, or `from` a file.
 bool is_axis_of_samples(const TomlValue& table);

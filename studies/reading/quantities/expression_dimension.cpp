@@ -62,7 +62,7 @@ class DimensionWalk {
     return std::string_view(expression_.text_).substr(place.first, place.end - place.first);
   }
 
-  std::string told(const Operand& operand) const {
+  std::string statement(const Operand& operand) const {
     return fmt::format("\"{}\" is {}", text(operand), described(*operand.dimension));
   }
 
@@ -131,7 +131,7 @@ class DimensionWalk {
     if (right.takes_any || !right.dimension) return {left.dimension, false, {}, place};
     if (!same(*left.dimension, *right.dimension)) {
       const bool compared = operation == Operation::minimum || operation == Operation::maximum;
-      fail(right, fmt::format("{}, but {}; they cannot be {}", told(left), told(right),
+      fail(right, fmt::format("{}, but {}; they cannot be {}", statement(left), statement(right),
                               compared                           ? "compared"
                               : operation == Operation::subtract ? "subtracted"
                                                                  : "added"));
@@ -156,7 +156,7 @@ class DimensionWalk {
 
   Operand power(const Operand& base, const Operand& exponent, const Place& place) const {
     if (exponent.dimension && !same(*exponent.dimension, pure_number))
-      fail(exponent, told(exponent) + ", but an exponent is a pure number");
+      fail(exponent, statement(exponent) + ", but an exponent is a pure number");
     if (exponent.number) return to_power(base, *exponent.number, place);
     if (base.dimension && same(*base.dimension, pure_number)) return {pure_number, base.takes_any, {}, place};
     return {{}, false, {}, place};
@@ -164,7 +164,7 @@ class DimensionWalk {
 
   Operand of_pure_number(const Operand& argument, const Place& place) const {
     if (argument.dimension && !same(*argument.dimension, pure_number))
-      fail(argument, fmt::format("{}, but {} takes a pure number", told(argument), function_at(place)));
+      fail(argument, fmt::format("{}, but {} takes a pure number", statement(argument), function_at(place)));
     return {pure_number, false, {}, place};
   }
 

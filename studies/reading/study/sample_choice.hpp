@@ -11,7 +11,7 @@ struct SampleChoice {
   std::size_t dimension = 0;      // of the map
   std::vector<std::size_t> axes;  // of the uncertain parameters; all of them lie along that dimension
   std::vector<std::string>
-      told;           // of each its distribution, for readers: "normal, mean 5, deviation 0.5 (kg)"
+      texts;          // of each its distribution, for readers: "normal, mean 5, deviation 0.5 (kg)"
   std::string drawn;  // for readers: "1000 points of sobol, seed 1", "of samples.csv"
   std::vector<double> quantiles{0.05, 0.5, 0.95};  // shares, strictly between 0 and 1, rising
 };

@@ -15,7 +15,7 @@ std::vector<std::size_t> elements_with_events(const mechanics::Network& network)
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const mechanics::Element& element = network.elements[e];
     const bool has_events = mechanics::has_contact(element) || !element.bends.empty();
-    if (has_events && mechanics::told_by(network, e) == e) found.push_back(e);
+    if (has_events && mechanics::reported_by(network, e) == e) found.push_back(e);
   }
   return found;
 }

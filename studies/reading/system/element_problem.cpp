@@ -57,12 +57,12 @@ Problem problem_of_places(const Study& study, std::span<const StudyValue> values
 
 // The slopes of a damper's table: at rest it must not drive, and where there must be one response the force
 // must not fall.
-Problem problem_of_damping(const Study& study, const StudyValue& told, const TableOfForces<double>& table) {
+Problem problem_of_damping(const Study& study, const StudyValue& value, const TableOfForces<double>& table) {
   const std::size_t i = table.central();
   double at_rest = table.slope(i);
   if (i > 0 && table.place(i) == 0.0) at_rest = std::min(at_rest, table.slope(i - 1));  // on either side
   if (at_rest < 0.0)
-    return ElementProblem{rules::out_of_range, &told,
+    return ElementProblem{rules::out_of_range, &value,
                           fmt::format("falls at velocity 0, by {:.6g} a unit", -at_rest),
                           "at rest a damper must not drive the motion"};
   const std::string one = needs_one_response(study);
@@ -70,7 +70,7 @@ Problem problem_of_damping(const Study& study, const StudyValue& told, const Tab
   for (std::size_t piece = 0; piece + 1 < table.points(); ++piece) {
     if (table.slope(piece) < 0.0)
       return ElementProblem{
-          rules::several_responses, &told,
+          rules::several_responses, &value,
           fmt::format("falls between its points {} and {}", piece + 1, piece + 2),
           fmt::format("then several responses may exist, and {} needs that there is one", one)};
   }
@@ -86,14 +86,14 @@ Problem problem_of_table(const Study& study, std::size_t e, std::span<const doub
   if (Problem problem = problem_of_places(study, values, table, of.sides)) return problem;
   double largest = 0.0;
   for (std::size_t i = 0; i < table.points(); ++i) largest = std::max(largest, std::abs(table.force(i)));
-  const StudyValue& told = study.values.element[e];
+  const StudyValue& value = study.values.element[e];
   if (const double N = table.force_at_origin(); std::abs(N) > rounding * largest)
     return ElementProblem{
-        rules::out_of_range, &told, fmt::format("gives the force {} at 0", with_unit(study, values[1], N)),
+        rules::out_of_range, &value, fmt::format("gives the force {} at 0", with_unit(study, values[1], N)),
         of.of_velocity ? "a damper at rest has none: a point [0, 0] belongs into the table"
                        : "it must pass through [0, 0]; take a preload off every force, and apply it as an "
                          "[[excitation.force]] of order 0"};
-  return of.of_velocity ? problem_of_damping(study, told, table) : Problem{};
+  return of.of_velocity ? problem_of_damping(study, value, table) : Problem{};
 }
 
 // A curve of friction starts at the origin, its speeds rise, and where there must be one response its forces

@@ -86,13 +86,13 @@ TEST_CASE(
 
 TEST_CASE("limits hold the numbers that they tell") {
   const Limits& samples = study_key("decay", "samples").limits;
-  CHECK(samples.told("a whole number ") == "a whole number from 2 to 10000000, or 0");
+  CHECK(samples.text("a whole number ") == "a whole number from 2 to 10000000, or 0");
   for (const double in : {0.0, 2.0, 1e7}) CHECK(samples.hold(in));
   for (const double out : {-1.0, 1.0, 1e7 + 1.0}) CHECK(!samples.hold(out));
-  CHECK(study_key("tune", "quantile").limits.told() == "above 0 and below 1");
+  CHECK(study_key("tune", "quantile").limits.text() == "above 0 and below 1");
   CHECK(!study_key("tune", "quantile").limits.hold(1.0));
-  CHECK(study_key("element", "chi").limits.told() == "above -1 and at most 100");
-  CHECK(positive.told() == "> 0");
+  CHECK(study_key("element", "chi").limits.text() == "above -1 and at most 100");
+  CHECK(positive.text() == "> 0");
   CHECK(!positive.hold(0.0));
   CHECK(not_negative.hold(0.0));
 }

@@ -54,7 +54,7 @@ TEST_CASE("samples have a dimension of their own, their parameters in the units 
   CHECK(sweep.dimensions[0].size == 16);
   REQUIRE(sweep.samples);
   CHECK(sweep.samples->dimension == 0);
-  CHECK(sweep.samples->told ==
+  CHECK(sweep.samples->texts ==
         std::vector<std::string>{"normal, mean 300, variation 0.1 (kN/m)",
                                  "triangular, mode 150, lower 100, upper 400 (N s m-1)"});
   CHECK(sweep.samples->quantiles == std::vector<double>{0.05, 0.5, 0.95});
