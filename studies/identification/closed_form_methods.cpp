@@ -11,7 +11,7 @@
 #include "solvers/identification/hysteresis_loop.hpp"
 #include "solvers/identification/log_decrement.hpp"
 #include "solvers/identification/resonance_magnification.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 
 namespace frahm::studies {
 namespace {

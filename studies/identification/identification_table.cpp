@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "studies/identification/identification_record.hpp"
+#include "studies/identification/identification_columns.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_units.hpp"

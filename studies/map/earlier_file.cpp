@@ -9,8 +9,8 @@
 
 #include "engine/io_error.hpp"
 #include "studies/map/earlier_file.hpp"
+#include "studies/provenance/finished_file.hpp"
 #include "studies/reading/text/study_source.hpp"
-#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -6,7 +6,7 @@
 #include "solvers/flow/equations.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/map/first_modes.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 
 namespace frahm::studies {
 namespace {

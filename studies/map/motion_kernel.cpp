@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 
 namespace frahm::studies {
 
@@ -24,7 +24,7 @@ void MotionKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
     std::string reason = compute_point();
     tile_.put(offset, values_, std::move(reason));
   } while (next_point(box, plan_.grid.order, index_));
-  encode(tile_.record, out);
+  encode(tile_.entry, out);
 }
 
 std::string MotionKernel::compute_point() {

@@ -14,7 +14,7 @@
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/motion/measurements.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {

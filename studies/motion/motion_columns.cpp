@@ -28,7 +28,7 @@ void MotionColumns::add_number(const std::string& name, std::string_view unit, c
 
 void MotionColumns::add_frequencies(const std::string& name, const std::string& long_name,
                                     const std::string& dimension, std::vector<double> omega) {
-  const UsualUnit unit = recorded_frequency_unit(study_);
+  const UsualUnit unit = frequency_unit_in_file(study_);
   for (double& each : omega) each /= unit.si_factor;
   add(name, unit.text, long_name, dimension, std::move(omega));
 }

@@ -15,7 +15,7 @@
 #include "results/map_writer.hpp"
 #include "solvers/branches/branch.hpp"
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/map/branch_record.hpp"
+#include "studies/map/branch_group.hpp"
 #include "studies/map/branch_rows.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/program/branch_command.hpp"
@@ -23,6 +23,9 @@
 #include "studies/program/exit_code.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/provenance.hpp"
 #include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/study/assignment.hpp"
@@ -30,9 +33,6 @@
 #include "studies/reading/study/study_units.hpp"
 #include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/spelling.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/provenance.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -211,9 +211,9 @@ void write_result(const BranchCommandOptions& options, const StudyPlan& plan, st
                   std::span<const double> parameters, const std::vector<periodic::Quantity>& quantities,
                   const periodic::Branch& branch, const std::string& started) {
   const Study& study = plan.study;
-  const RunRecord run{.command = options.command, .threads = 1, .started = started};
+  const RunFacts run{.command = options.command, .threads = 1, .started = started};
   results::MapWriter writer(*options.output, file_layout(plan, run));
-  BranchRecord(study, along, axis_parameters_beside(study, along), quantities, writer)
+  BranchGroup(study, along, axis_parameters_beside(study, along), quantities, writer)
       .append(parameters, branch);
   writer.write_texts("provenance", provenance(plan, run, {}));
   writer.finish();

@@ -19,10 +19,10 @@
 #include "studies/program/data_export.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/stored_study.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/study/study.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -8,7 +8,7 @@
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/explain_command.hpp"
-#include "studies/program/record_words.hpp"
+#include "studies/program/result_words.hpp"
 #include "studies/reading/keys/element_keys.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/quantities/units.hpp"
@@ -274,7 +274,7 @@ std::vector<std::string> words_of_studies() {
   }
   for (const Meaning& each : flag_words) words.push_back(each.word);
   for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
-  for (const RecordWord& each : record_words()) words.emplace_back(each.name);
+  for (const ResultWord& each : result_words()) words.emplace_back(each.name);
   for (const Meaning& each : further_meanings) words.push_back(each.word);
   return words;
 }
@@ -296,7 +296,7 @@ int explain_command(const std::string& word, std::ostream& out) {
     if (word == each.word) found.push_back(each.text);
   }
   const bool is_known = !found.empty();
-  for (std::string& text : is_known ? record_words_named(word) : record_words_called(word))
+  for (std::string& text : is_known ? result_words_named(word) : result_words_called(word))
     found.push_back(std::move(text));
   // Words of our own come first: UDUNITS has a unit called `force`.
   if (found.empty()) found = units_called(word);

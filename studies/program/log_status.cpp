@@ -12,7 +12,7 @@
 #include "engine/survey.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/array_tasks.hpp"
+#include "studies/provenance/array_tasks.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 
 namespace frahm::studies {

@@ -10,8 +10,8 @@
 #include "studies/program/report_command.hpp"
 #include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/provenance/finished_file.hpp"
 #include "studies/reading/text/study_source.hpp"
-#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {

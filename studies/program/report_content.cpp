@@ -10,8 +10,8 @@
 #include "studies/program/report_content.hpp"
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
+#include "studies/provenance/stored_study.hpp"
 #include "studies/reading/text/name_pattern.hpp"
-#include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {

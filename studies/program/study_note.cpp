@@ -16,10 +16,10 @@
 #include "engine/tile_index.hpp"
 #include "results/part_file.hpp"
 #include "studies/program/study_note.hpp"
+#include "studies/provenance/finished_file.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/assignment.hpp"
 #include "studies/reading/text/plain_text.hpp"
-#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {

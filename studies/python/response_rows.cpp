@@ -162,7 +162,7 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const std:
     throw StudyError(rules::unknown_name, "{}: there is no quantity \"{}\"{}", study.source.name, name,
                      hint_of_unmatched(name, known));
   }
-  return periodic::with_always_recorded(std::move(called), study.network);
+  return periodic::with_always_stored(std::move(called), study.network);
 }
 
 RowResponses solve_rows(const Study& study, const std::vector<periodic::Quantity>& quantities, RowGrid grid,

@@ -33,8 +33,8 @@ enum class KeyForm {
   list_of_settings,
 };
 
-// What changes with a key (studies/record/fingerprint.hpp). Numbers and their units are of one use; the same
-// numbers in other units change only how a result is written.
+// What changes with a key (studies/provenance/fingerprint.hpp). Numbers and their units are of one use; the
+// same numbers in other units change only how a result is written.
 enum class Use {
   physics,  // what is computed
   grid,     // at which points, and what is computed beside them

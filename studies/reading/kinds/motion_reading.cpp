@@ -160,7 +160,7 @@ void read_motion_output(const StudyContext& context, const TomlValue& root, Stud
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[output]", "output", kind_name(study.kind()));
-  read_recorded(section, *study.map());
+  read_stored(section, *study.map());
   read_histories(context, section, "histories", study);
 }
 

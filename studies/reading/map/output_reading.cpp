@@ -154,7 +154,7 @@ std::size_t read_record_number(const StudyContext& context, const RecordAxis& re
 
 }  // namespace
 
-void read_recorded(const TomlSection& section, MapChoice& map) {
+void read_stored(const TomlSection& section, MapChoice& map) {
   OutputChoice& output = map.output;
   read_quantiles(section, map.samples);
   read_quantities(section, output);
@@ -214,7 +214,7 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[output]", "output", kind_name(study.kind()));
-  read_recorded(section, *study.sweep());
+  read_stored(section, *study.sweep());
   study.sweep()->general_path = section.choice("path") == "general";
   read_borders(section, study);
   read_histories(context, section, "orbits", study);

@@ -18,7 +18,7 @@ void read_report(const StudyContext& context, const TomlValue& root, Study& stud
 
 // The keys `quantities` and `precision` of [output], and the points listed under a key, `orbits` or
 // `histories`.
-void read_recorded(const TomlSection& section, MapChoice& map);
+void read_stored(const TomlSection& section, MapChoice& map);
 void read_histories(const StudyContext& context, const TomlSection& section, const char* key, Study& study);
 // The names in the array `quantities` of a section, and patterns of names (name_pattern.hpp), each once.
 std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);

@@ -35,7 +35,7 @@ UsualUnit frequency_unit(const Study& study) {
   return {};
 }
 
-UsualUnit recorded_frequency_unit(const Study& study) {
+UsualUnit frequency_unit_in_file(const Study& study) {
   if (study.dimensionless) return {"1", 1.0};
   const UsualUnit unit = frequency_unit(study);
   return unit.text.empty() ? UsualUnit{"rad s-1", 1.0} : unit;
@@ -48,7 +48,7 @@ SpokenValue spoken_frequency(const Study& study, double omega) {
   return {omega / unit.si_factor, is_si ? "rad/s" : unit.text};
 }
 
-std::string recorded_unit(const Study& study, std::size_t parameter) {
+std::string unit_in_file(const Study& study, std::size_t parameter) {
   const Parameter& definition = study.parameters.list[parameter];
   if (study.dimensionless) return "1";
   if (definition.quantity) return std::string(si_unit(*definition.quantity));

@@ -23,12 +23,12 @@ std::string spoken_text(const Study& study, std::size_t parameter, double si);
 // which is one, else that in which the study writes it; text "" for SI.
 UsualUnit frequency_unit(const Study& study);
 // The same for the record: "rpm", "rad s-1", "1" of a dimensionless study.
-UsualUnit recorded_frequency_unit(const Study& study);
+UsualUnit frequency_unit_in_file(const Study& study);
 // An angular frequency [rad/s] in that unit: {250, "rpm"}.
 SpokenValue spoken_frequency(const Study& study, double omega);
 
 // The SI unit of a number parameter in CF form: that of its quantity, else that of its given unit; "1" if
 // neither is known.
-std::string recorded_unit(const Study& study, std::size_t parameter);
+std::string unit_in_file(const Study& study, std::size_t parameter);
 
 }  // namespace frahm::studies

@@ -2,7 +2,7 @@
 #include <sstream>
 #include <string>
 
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 

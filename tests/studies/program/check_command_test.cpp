@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "studies/map/map_sample.hpp"
-#include "studies/map/statistics_record.hpp"
+#include "studies/map/statistics_group.hpp"
 #include "studies/program/memory_use.hpp"
 #include "studies/reading/quantities/expression.hpp"
 #include "studies/reading/settings.hpp"

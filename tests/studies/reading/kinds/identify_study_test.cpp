@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "results/map_writer.hpp"
+#include "studies/provenance/study_plan.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
-#include "studies/record/study_plan.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace identify_study_test {

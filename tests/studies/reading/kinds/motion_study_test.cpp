@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include "studies/map/map_plan.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/provenance/study_plan.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
-#include "studies/record/study_plan.hpp"
 
 namespace motion_study_test {
 namespace {

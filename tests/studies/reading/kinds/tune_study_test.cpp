@@ -4,8 +4,8 @@
 
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 #include "studies/tuning/tuned_design.hpp"
-#include "studies/tuning/tuning_record.hpp"
 #include "studies/tuning/tuning_task.hpp"
 #include "tests/studies/small_tunings.hpp"
 

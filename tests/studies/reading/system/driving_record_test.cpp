@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "results/map_writer.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/provenance/fingerprint.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
-#include "studies/record/fingerprint.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace driving_record_test {

@@ -7,7 +7,7 @@
 #include "solvers/tuning/optimum.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/output_quantities.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/tuning/sweep_study.hpp"
