@@ -28,8 +28,8 @@ class StableSearch {
   using Index = std::optional<std::size_t>;  // in Orbits::stable
 
   // Periods that a motion is followed for at most.
-  static constexpr int kOfStart = 324;  // one of many
-  static constexpr int kOfSweep = 972;  // just beyond a fold it lingers where the orbit was
+  static constexpr int kOfStart = 324;      // one of many
+  static constexpr int kOfSlowSweep = 972;  // just beyond a fold it lingers where the orbit was
 
   // Both must outlive the search.
   StableSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow, int most_multiple)

@@ -2,7 +2,7 @@
 
 #include "solvers/nonstop/forms.hpp"
 
-// The extremes of the traces, segment after segment: the sweep keeps a segment's steps; once they are proved
+// The extremes of the traces, segment after segment: the passage keeps a segment's steps; once they are proved
 // stationary points are solved, and both limits where the friction turns.
 namespace {
 
@@ -50,7 +50,7 @@ FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Mask reached, 
   best.reached = select(where & reached & (value > best.reached), value, best.reached);
 }
 
-// A trace within a step of the sweep.
+// A trace within a step of the passage.
 template <class W>
 struct TraceStep {
   const W& w;

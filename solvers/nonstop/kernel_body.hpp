@@ -45,7 +45,7 @@ template <class W>
 inline void solve_group(W& w, Mask group) {
   constexpr double kFine = 4.0;
   sort_reversals(w);
-  Passage passage = sweep(w, group, 1.0);
+  Passage passage = passage_along(w, group, 1.0);
   Mask again = group & ~passage.proved & is_close(passage);
   for (int trial = 0; trial < 2; ++trial) {
     if (any(passage.proved)) {
@@ -53,7 +53,7 @@ inline void solve_group(W& w, Mask group) {
       if (w.shape.is_judged) judge(w, passage.proved);
     }
     if (trial == 1 || !any(again)) return;
-    passage = sweep(w, again, kFine);
+    passage = passage_along(w, again, kFine);
   }
 }
 
@@ -70,7 +70,7 @@ inline void solve_with_stops(W& w, Mask group) {
     *view(w.pack.slides) = select(passage.proved, stop.theta * (1.0 / kPi), *view(w.pack.slides));
     if (w.shape.is_judged) judge_one_stop(w, stop, passage.proved);
   };
-  const Passage at_rest = sweep_stuck(w, held, group);
+  const Passage at_rest = passage_stuck(w, held, group);
   finish(at_rest, held);
   group = group & ~at_rest.proved;
   for (const int intervals : {kCoarseGrid, kFineGrid}) {
@@ -80,7 +80,7 @@ inline void solve_with_stops(W& w, Mask group) {
     w.reversals = 2;  // a stop and a release
     Mask sought = stop.found;
     for (const double fineness : {1.0, kFine}) {
-      Passage passage = sweep_one_stop(w, stop, fineness);
+      Passage passage = passage_with_one_stop(w, stop, fineness);
       passage.proved = passage.proved & sought;
       finish(passage, stop);
       group = group & ~passage.proved;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/nonstop/sweep.hpp"
+#include "solvers/nonstop/passage.hpp"
 
 // The state at a section amid the first segment, and the derivative of the map from there: flows of the
 // modes, and at each reversal a change of rank one (saltation). Its largest multiplier and its norm in

@@ -53,7 +53,7 @@ std::string MotionKernel::compute_point() {
 // Samples are kept where a run-up is refined until they stand.
 transient::ForcedOptions MotionKernel::options_of_point() const {
   transient::ForcedOptions options = forced_options(plan_.study, parameters_);
-  if (options.sweep.rate == 0.0) options.samples = 0;
+  if (options.run_up.rate == 0.0) options.samples = 0;
   options.quantities = plan_.motion_quantities;
   options.watch = [this] {
     if (stop_asked_ && stop_asked_()) throw engine::GivenUp{};

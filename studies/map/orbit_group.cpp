@@ -11,7 +11,7 @@
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/map/map_groups.hpp"
-#include "studies/map/way_of_sweep.hpp"
+#include "studies/map/way_of_slow_sweep.hpp"
 #include "studies/provenance/assembly_stage.hpp"
 
 namespace frahm::studies {
@@ -85,7 +85,7 @@ KeptOrbit keep_orbit(const MapPlan& plan, const KeptPoint& point) {
   periodic::PeriodicResponse response(study.network, plan.quantities, periodic::Path::fastest,
                                       study.orbits_wanted());
   periodic::Status status = periodic::Status::not_computed;
-  for (std::vector<double>& passed : way_of_sweep(study, study.orbits_wanted(), orbit.parameters)) {
+  for (std::vector<double>& passed : way_of_slow_sweep(study, study.orbits_wanted(), orbit.parameters)) {
     evaluate(study.values, study.parameters, passed, values);
     try {
       response.set_values(values);

@@ -131,7 +131,7 @@ class TornadoMaking {
 std::vector<periodic::Quantity> tornado_quantities(const MapPlan& plan) {
   std::vector<periodic::Quantity> quantities;
   if (!plan.study.sweep()) return quantities;
-  if (plan.study.values.has_smooth_laws() || plan.study.sweep()->orbits.is_sweep()) return quantities;
+  if (plan.study.values.has_smooth_laws() || plan.study.sweep()->orbits.is_slow_sweep()) return quantities;
   for (const periodic::Quantity& quantity : plan.quantities) {
     const auto described = periodic::describe(quantity, plan.study.network, plan.study.dimensionless);
     if (periodic::is_differentiable(quantity.measure) && has_statistics(described))

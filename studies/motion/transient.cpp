@@ -100,14 +100,14 @@ transient::ForcedOptions forced_options(const Study& study, std::span<const doub
   const auto at = [&](const StudyValue& value) { return value.expression.evaluate(parameters); };
   transient::ForcedOptions options{.from = at(study.values.omega), .samples = motion.samples};
   if (motion.sweep_to) {
-    options.sweep = {at(*motion.sweep_to), at(*motion.sweep_rate)};
-    if (options.sweep.to == options.from) {
+    options.run_up = {at(*motion.sweep_to), at(*motion.sweep_rate)};
+    if (options.run_up.to == options.from) {
       throw study.source.error_at(rules::wrong_order, motion.sweep_to->position,
                                   "{}: is the frequency at which the motion begins; leave out "
                                   "sweep_to and sweep_rate for one frequency",
                                   motion.sweep_to->where);
     }
-    options.duration = std::abs(options.sweep.to - options.from) / options.sweep.rate;
+    options.duration = std::abs(options.run_up.to - options.from) / options.run_up.rate;
   }
   if (motion.duration) {
     options.duration = at(*motion.duration);

@@ -155,9 +155,9 @@ void print_transient_choice(const Study& study, std::ostream& out) {
   fmt::print(out, "transient  {}", seconds_text(study, options.duration));
   if (std::ranges::any_of(study.network.excitations, [](const auto& each) { return each.order > 0; }))
     fmt::print(out, " at {}", frequency_text(study, options.from));
-  if (options.sweep.rate > 0.0) {
-    fmt::print(out, ", running to {} at {} a {}", frequency_text(study, options.sweep.to),
-               frequency_text(study, options.sweep.rate), study.dimensionless ? "unit of time" : "second");
+  if (options.run_up.rate > 0.0) {
+    fmt::print(out, ", running to {} at {} a {}", frequency_text(study, options.run_up.to),
+               frequency_text(study, options.run_up.rate), study.dimensionless ? "unit of time" : "second");
   }
   fmt::print(out, "\n");
 }

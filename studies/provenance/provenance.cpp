@@ -40,7 +40,7 @@ std::string file_name(const Study& study) {
 
 std::string search_text(const Study& study, const periodic::OrbitsWanted& wanted) {
   using enum periodic::OrbitsWanted::Show;
-  if (wanted.is_sweep())
+  if (wanted.is_slow_sweep())
     return fmt::format(
         "a sweep of the frequency {}, from rest at its first point of a row; at each point the stable "
         "response "

@@ -48,8 +48,8 @@ void set_point(const RowGrid& grid, std::size_t point, std::span<double> paramet
   }
 }
 
-bool sweeps(const Study& study) {
-  return study.orbits_wanted().is_sweep();
+bool sweeps_slowly(const Study& study) {
+  return study.orbits_wanted().is_slow_sweep();
 }
 
 // Whether the excitation frequency depends on a number parameter.
@@ -58,8 +58,8 @@ bool sets_frequency(const Study& study, std::size_t parameter) {
   return std::ranges::binary_search(inputs, parameter);
 }
 
-void refuse_sweep_along(const Study& study, std::size_t along) {
-  if (!sweeps(study) || sets_frequency(study, along)) return;
+void refuse_slow_sweep_along(const Study& study, std::size_t along) {
+  if (!sweeps_slowly(study) || sets_frequency(study, along)) return;
   throw StudyError(
       rules::wrong_option,
       "{}: [orbits] sweeps the frequency, which does not depend on \"{}\": a row has to run along "
@@ -76,7 +76,7 @@ class RowTeam {
         quantities_(quantities),
         grid_(grid),
         stop_asked_(stop_asked),
-        pieces_(pieces_of(grid, sweeps(study))),
+        pieces_(pieces_of(grid, sweeps_slowly(study))),
         out_(out) {}
 
   std::size_t pieces() const { return pieces_.size(); }
@@ -167,7 +167,7 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const std:
 
 RowResponses solve_rows(const Study& study, const std::vector<periodic::Quantity>& quantities, RowGrid grid,
                         int threads, const std::function<bool()>& stop_asked) {
-  refuse_sweep_along(study, grid.axes.back().parameter);
+  refuse_slow_sweep_along(study, grid.axes.back().parameter);
   RowResponses found = without_values(study, quantities, grid.points());
   RowTeam team(study, quantities, grid, stop_asked, found);
   const std::exception_ptr error =

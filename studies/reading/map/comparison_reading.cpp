@@ -155,7 +155,7 @@ void check_compared_show(const StudyContext& context, const TomlValue& root, con
   const TomlSection section = section_of(context, *find_entry(root, "compare"));
   if (*comparison->show == study.sweep()->orbits.show)
     section.fail(rules::key_without_use, "show", "the study itself shows this response; write another");
-  if (periodic::OrbitsWanted::is_sweep(*comparison->show)) check_sweep(section, study);
+  if (periodic::OrbitsWanted::is_slow_sweep(*comparison->show)) check_slow_sweep(section, study);
 }
 
 }  // namespace frahm::studies

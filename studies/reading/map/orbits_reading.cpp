@@ -4,7 +4,7 @@
 #include "studies/reading/system/unfit_elements.hpp"
 
 namespace frahm::studies {
-void check_sweep(const TomlSection& section, const Study& study) {
+void check_slow_sweep(const TomlSection& section, const Study& study) {
   refuse_smooth_laws(study, "a sweep up or down");
   if (!study.sweep()->frequency_dimension)
     section.fail(rules::unfit_axis, "show",
@@ -39,11 +39,11 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
     return wanted;
   }
   wanted.show = read_show(section);
-  if (!wanted.is_sweep()) return wanted;
-  check_sweep(section, study);
+  if (!wanted.is_slow_sweep()) return wanted;
+  check_slow_sweep(section, study);
   const auto& comparison = study.sweep()->comparison;
   const bool searches =
-      comparison && comparison->show && !periodic::OrbitsWanted::is_sweep(*comparison->show);
+      comparison && comparison->show && !periodic::OrbitsWanted::is_slow_sweep(*comparison->show);
   if (section.find("starts") && !searches)
     section.fail(rules::key_without_use, "starts",
                  "has no effect: a sweep begins at rest and goes on from point to point");

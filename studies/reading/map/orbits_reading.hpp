@@ -16,6 +16,6 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
 // The key `show`: which of several responses, by default the largest; a sweep needs exact laws and an axis of
 // the frequency.
 periodic::OrbitsWanted::Show read_show(const TomlSection& section);
-void check_sweep(const TomlSection& section, const Study& study);
+void check_slow_sweep(const TomlSection& section, const Study& study);
 
 }  // namespace frahm::studies

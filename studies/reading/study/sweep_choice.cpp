@@ -21,8 +21,8 @@ std::vector<std::size_t> elements_with_events(const mechanics::Network& network)
 }
 
 bool SweepChoice::sweeps_frequency() const {
-  return orbits.is_sweep() ||
-         (comparison && comparison->show && periodic::OrbitsWanted::is_sweep(*comparison->show));
+  return orbits.is_slow_sweep() ||
+         (comparison && comparison->show && periodic::OrbitsWanted::is_slow_sweep(*comparison->show));
 }
 
 std::vector<const StudyValue*> SweepChoice::values() const {

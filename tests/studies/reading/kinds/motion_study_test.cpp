@@ -57,13 +57,13 @@ TEST_CASE("a transient has 1001 samples unless told otherwise, and a run-up last
                              "[transient]\nduration = { value = 2, unit = \"min\" }\n");
   CHECK(forced_options(steady).duration == 120.0);
   CHECK(forced_options(steady).samples == 1001);
-  CHECK(forced_options(steady).sweep.rate == 0.0);
+  CHECK(forced_options(steady).run_up.rate == 0.0);
   CHECK_THAT(forced_options(steady).from, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
   const Study run_down = parse(transient_heading + network + excitation +
                                "[transient]\nsweep_to = { value = 0.5, unit = \"Hz\" }\nsweep_rate = { "
                                "value = 30, unit = \"rpm/s\" }\n");
   CHECK_THAT(forced_options(run_down).duration, Catch::WithinRel(3.0, rounding));
-  CHECK_THAT(forced_options(run_down).sweep.to, Catch::WithinRel(std::numbers::pi, rounding));
+  CHECK_THAT(forced_options(run_down).run_up.to, Catch::WithinRel(std::numbers::pi, rounding));
 }
 
 frahm::engine::Fingerprint fingerprint_of(const std::string& text) {

@@ -11,12 +11,12 @@ namespace frahm::periodic {
 // The motion that a slow sweep is on, of a system whose laws are not all monotone: a stable orbit as long as
 // it goes on; where it ends, the one to which the motion from there comes. The sweep begins at rest.
 template <int N, int H>
-class Sweep {
+class SlowSweep {
  public:
   using S = Sizes<N, H>;
 
   // Both must outlive the sweep.
-  Sweep(const mechanics::Assembly& assembly, Flow<N, H>& flow, int most_multiple)
+  SlowSweep(const mechanics::Assembly& assembly, Flow<N, H>& flow, int most_multiple)
       : flow_(flow), walk_(flow), search_(assembly, flow, most_multiple), most_multiple_(most_multiple) {}
 
   void begin() { has_begun_ = is_on_orbit_ = false; }  // at rest
@@ -51,7 +51,7 @@ class Sweep {
 };
 
 template <int N, int H>
-bool Sweep<N, H>::go_on(const mechanics::LinearSystem& system) {
+bool SlowSweep<N, H>::go_on(const mechanics::LinearSystem& system) {
   constexpr double kClose = 0.1;  // of its size; a longer way is to be taken in shorter steps
   found_ = search_.begin(system);
   const typename S::State z = search_.in_steps(z_, step_);
@@ -66,13 +66,13 @@ bool Sweep<N, H>::go_on(const mechanics::LinearSystem& system) {
 }
 
 template <int N, int H>
-void Sweep<N, H>::follow(const mechanics::LinearSystem& system) {
+void SlowSweep<N, H>::follow(const mechanics::LinearSystem& system) {
   constexpr double kSlight = 1e-3;  // so that the motion leaves an orbit that has become unstable
   found_ = search_.begin(system);
   typename S::State z = S::State::Zero(flow_.equations().states());
   if (has_begun_) z = search_.in_steps(z_, step_);
   if (is_on_orbit_) z += disturbance(flow_, z, kSlight, 1);
-  const auto there = search_.follow(z, search_.kOfSweep, system, found_);
+  const auto there = search_.follow(z, search_.kOfSlowSweep, system, found_);
   passages_ += found_.passages;
   newton_iterations_ += found_.newton_iterations;
   if (there) {
@@ -85,7 +85,7 @@ void Sweep<N, H>::follow(const mechanics::LinearSystem& system) {
 
 // On to phase 0 of the next period.
 template <int N, int H>
-void Sweep<N, H>::stand_on(const Orbit<N, H>& orbit) {
+void SlowSweep<N, H>::stand_on(const Orbit<N, H>& orbit) {
   typename S::State z = orbit.z;
   if (orbit.section != 0.0) {
     const double steps = (2.0 * std::numbers::pi - orbit.section) / flow_.fundamental_rate();
@@ -97,7 +97,7 @@ void Sweep<N, H>::stand_on(const Orbit<N, H>& orbit) {
 }
 
 template <int N, int H>
-void Sweep<N, H>::stand_at(const typename S::State& z, bool is_on_orbit) {
+void SlowSweep<N, H>::stand_at(const typename S::State& z, bool is_on_orbit) {
   has_begun_ = true;
   is_on_orbit_ = is_on_orbit;
   z_ = z;
@@ -105,7 +105,7 @@ void Sweep<N, H>::stand_at(const typename S::State& z, bool is_on_orbit) {
 }
 
 template <int N, int H>
-void Sweep<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
+void SlowSweep<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   if (is_on_orbit_) {
     search_.tell(system, found_, on_, orbit);
     orbit.passages += passages_ - found_.passages;
@@ -113,7 +113,8 @@ void Sweep<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>& orbit
   } else {
     orbit = {};
     orbit.status = found_.failure != nullptr ? Status::failed : Status::not_periodic;
-    orbit.reason = found_.failure != nullptr ? found_.failure : not_settled(search_.kOfSweep, most_multiple_);
+    orbit.reason =
+        found_.failure != nullptr ? found_.failure : not_settled(search_.kOfSlowSweep, most_multiple_);
     orbit.residual = kNone;
     orbit.coexisting = 0;
     orbit.passages = passages_;

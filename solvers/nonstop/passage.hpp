@@ -10,7 +10,7 @@ namespace {
 // zeta just after the first reversal, and the direction of every contact from there: that of its last
 // reversal.
 template <class W>
-inline void start_sweep(W& w) {
+inline void start_passage(W& w) {
   const int R = w.reversals;
   const Lanes start = R > 0 ? w.sorted_phase[0] : lanes(0.0);
   for (int s = 0; s < w.modes; ++s) w.zeta[s] = {lanes(0.0), lanes(0.0)};
@@ -150,7 +150,7 @@ inline int steps_of(Mask group, Lanes count) {
 }
 
 template <class W>
-inline void sweep_segment(W& w, const Segment& segment, Passage& passage) {
+inline void pass_segment(W& w, const Segment& segment, Passage& passage) {
   start_segment(w, segment, passage);
   const int steps = steps_of(passage.proved, segment.count);
   for (int k = 0; k < steps; ++k) {
@@ -180,19 +180,19 @@ inline Segment segment_of(const W& w, int number) {
 
 // Sweeps the orbit in the lanes of the group. fineness: factor of the number of steps.
 template <class W>
-inline Passage sweep(W& w, Mask group, double fineness) {
+inline Passage passage_along(W& w, Mask group, double fineness) {
   constexpr double kClosed = 1e-9;
   constexpr double kInOrder = 1e-2;  // of the shortest segment, by which a reversal may miss its phase
   Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
   clear_measures(w);
   w.rests = w.is_released = false;
   Lanes steps_so_far = lanes(0.0);
-  start_sweep(w);
+  start_passage(w);
   for (int p = 0; p == 0 || p < w.reversals; ++p) {
     Segment segment = segment_of(w, p);
     w.segment_length[p] = segment.length;
     if (!lay_out_steps(w, segment, fineness, steps_so_far, passage)) return passage;
-    sweep_segment(w, segment, passage);
+    pass_segment(w, segment, passage);
     if (w.reversals == 0) break;
     const Lanes turned = segment.is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[segment.next];
     take_reversal(w, segment.next, turned, passage.proved, passage);

@@ -1,12 +1,12 @@
-#include "studies/map/way_of_sweep.hpp"
+#include "studies/map/way_of_slow_sweep.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace frahm::studies {
 
-std::vector<std::vector<double>> way_of_sweep(const Study& study, const periodic::OrbitsWanted& wanted,
-                                              std::span<const double> parameters) {
+std::vector<std::vector<double>> way_of_slow_sweep(const Study& study, const periodic::OrbitsWanted& wanted,
+                                                   std::span<const double> parameters) {
   const double sign = wanted.show == periodic::OrbitsWanted::Show::down ? -1.0 : 1.0;
   mechanics::NetworkValues values;
   const auto place = [&](std::vector<double>& point) {
@@ -16,7 +16,7 @@ std::vector<std::vector<double>> way_of_sweep(const Study& study, const periodic
   std::vector<double> end(parameters.begin(), parameters.end());
   const double last = place(end);
   std::vector<std::pair<double, std::vector<double>>> passed;
-  if (wanted.is_sweep()) {
+  if (wanted.is_slow_sweep()) {
     const std::size_t along = *study.sweep()->frequency_dimension;
     for (std::size_t i = 0; i < study.map()->dimensions[along].size; ++i) {
       std::vector<double> point = end;
