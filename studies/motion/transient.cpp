@@ -142,7 +142,7 @@ ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) 
 }
 
 // Of what takes every mass: [m], or [rad] where all rotate.
-std::string_view unit_of_all(const Study& study) {
+static std::string_view unit_of_all(const Study& study) {
   std::size_t i = 0;
   while (mechanics::rotates(study.network, i)) ++i;
   return i == study.network.masses.size() ? "rad" : "m";
@@ -184,7 +184,7 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
 }
 
 // The unit of the displacements of all masses and signals; "" where some are angles and others are not.
-std::string_view common_unit(const Study& study) {
+static std::string_view common_unit(const Study& study) {
   const std::string_view first = mechanics::coordinate_unit(study.network, 0, "m");
   for (std::size_t i = 1; i < mechanics::coordinate_count(study.network); ++i)
     if (mechanics::coordinate_unit(study.network, i, "m") != first) return "";
