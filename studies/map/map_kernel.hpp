@@ -30,7 +30,7 @@ class MapKernel {
   MapKernel(const Study& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
             KnownPoints* earlier = nullptr);
 
-  // Appends the record of a tile (tile_record.hpp) to `out`.
+  // Appends the entry of a tile (tile_entry.hpp) to `out`.
   void operator()(std::uint64_t tile, engine::Bytes& out);
 
  private:

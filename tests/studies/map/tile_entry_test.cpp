@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tile_record_test {
+namespace tile_entry_test {
 namespace {
 
 using namespace frahm::studies;
@@ -74,4 +74,4 @@ TEST_CASE("a record cut short anywhere but between failed points is refused") {
 }
 
 }  // namespace
-}  // namespace tile_record_test
+}  // namespace tile_entry_test

@@ -12,7 +12,7 @@
 #include "tests/studies/small_tunings.hpp"
 #include "tests/study_path.hpp"
 
-namespace tuning_record_test {
+namespace optimum_columns_test {
 namespace {
 
 using namespace frahm;
@@ -297,4 +297,4 @@ TEST_CASE("The band and what scenarios set are refused by --set, which would be 
 }
 
 }  // namespace
-}  // namespace tuning_record_test
+}  // namespace optimum_columns_test

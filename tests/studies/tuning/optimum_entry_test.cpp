@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace optimum_record_test {
+namespace optimum_entry_test {
 namespace {
 
 using namespace frahm;
@@ -80,4 +80,4 @@ TEST_CASE("a record that is cut off anywhere, or goes on, is refused") {
 }
 
 }  // namespace
-}  // namespace optimum_record_test
+}  // namespace optimum_entry_test
