@@ -2,8 +2,8 @@
 
 #include "solvers/nonstop/forms.hpp"
 
-// The extremes of the traces, segment after segment: the passage keeps a segment's steps; once they are proved
-// stationary points are solved, and both limits where the friction turns.
+// The extremes of the traces, segment after segment: the passage keeps a segment's steps; once they are
+// proved stationary points are solved, and both limits where the friction turns.
 namespace {
 
 template <class W>

@@ -74,7 +74,7 @@ using Floors = std::vector<std::string>;
 const Floors of_solvers{"laws",     "algebra",    "samples",        "mechanics", "flow",   "events",
                         "orbits",   "quantities", "nonstop",        "exact",     "smooth", "transient",
                         "response", "branches",   "identification", "tuning"};
-const Floors of_reading{"text",   "quantities", "keys",  "study", "data",
+const Floors of_reading{"text",   "quantities", "keys",  "study", "data_files",
                         "system", "map",        "kinds", "."};  // ".": its own files
 
 void check_floors(const fs::path& room, const Floors& floors) {
@@ -124,7 +124,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"toml\\+\\+|toml", {"studies/reading/text/toml_reading.cpp"}},
       {"CLI", {"studies/program/command_line.cpp"}},
       {"udunits2", {"studies/reading/quantities/units.cpp"}},
-      {"suitesparse/cholmod", {"studies/reading/data/matrix_market.cpp"}},
+      {"suitesparse/cholmod", {"studies/reading/data_files/matrix_market.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},
       {"mpi", {"engine/mpi.cpp"}},
       {"libdeflate", {"results/deflate.cpp"}},

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/reading/data/earlier_estimates.hpp"
+#include "studies/reading/data_files/earlier_estimates.hpp"
 #include "studies/reading/kinds/identify_reading.hpp"
 #include "studies/reading/quantities/parameters.hpp"
 #include "studies/reading/study/study.hpp"

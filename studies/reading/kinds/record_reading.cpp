@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "solvers/transient/record_course.hpp"
-#include "studies/reading/data/column_in_si.hpp"
-#include "studies/reading/data/record_columns.hpp"
+#include "studies/reading/data_files/column_in_si.hpp"
+#include "studies/reading/data_files/record_columns.hpp"
 #include "studies/reading/kinds/identify_reading.hpp"
 #include "studies/reading/study/assignment_reading.hpp"
 #include "studies/reading/study/study.hpp"

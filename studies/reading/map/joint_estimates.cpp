@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/reading/data/earlier_estimates.hpp"
+#include "studies/reading/data_files/earlier_estimates.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/map/axis_reading.hpp"
 #include "studies/reading/quantities/unit_words.hpp"

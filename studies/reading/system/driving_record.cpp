@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "solvers/transient/record_course.hpp"
-#include "studies/reading/data/column_in_si.hpp"
-#include "studies/reading/data/record_columns.hpp"
+#include "studies/reading/data_files/column_in_si.hpp"
+#include "studies/reading/data_files/record_columns.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/study/study_context.hpp"

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "studies/reading/data/matrix_file.hpp"
+#include "studies/reading/data_files/matrix_file.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/system/network_limits.hpp"
 #include "studies/reading/system/network_reading.hpp"

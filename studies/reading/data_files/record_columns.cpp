@@ -1,9 +1,9 @@
-#include "studies/reading/data/record_columns.hpp"
+#include "studies/reading/data_files/record_columns.hpp"
 
 #include <fmt/format.h>
 
-#include "studies/reading/data/csv_columns.hpp"
-#include "studies/reading/data/hdf5_columns.hpp"
+#include "studies/reading/data_files/csv_columns.hpp"
+#include "studies/reading/data_files/hdf5_columns.hpp"
 
 namespace frahm::studies {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "studies/reading/data/record_columns.hpp"
+#include "studies/reading/data_files/record_columns.hpp"
 
 namespace frahm::studies {
 

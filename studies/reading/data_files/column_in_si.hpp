@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/data/record_columns.hpp"
+#include "studies/reading/data_files/record_columns.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/study/study_context.hpp"
 #include "studies/reading/text/toml_reading.hpp"

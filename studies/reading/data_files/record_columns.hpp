@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/data/record_form.hpp"
-#include "studies/reading/data/wanted_columns.hpp"
+#include "studies/reading/data_files/record_form.hpp"
+#include "studies/reading/data_files/wanted_columns.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 
 // The columns of a record as stored in its file, in the file's units.

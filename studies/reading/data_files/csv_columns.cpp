@@ -1,4 +1,4 @@
-#include "studies/reading/data/csv_columns.hpp"
+#include "studies/reading/data_files/csv_columns.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "studies/reading/data/record_columns.hpp"
-#include "studies/reading/data/wanted_columns.hpp"
+#include "studies/reading/data_files/record_columns.hpp"
+#include "studies/reading/data_files/wanted_columns.hpp"
 #include "studies/reading/text/csv_table.hpp"
 #include "studies/reading/text/spelling.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/reading/data/matrix_market.hpp"
+#include "studies/reading/data_files/matrix_market.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/data/matrix_file.hpp"
+#include "studies/reading/data_files/matrix_file.hpp"
 #include "studies/reading/text/readable_file.hpp"
 #include "studies/reading/text/study_source.hpp"
 

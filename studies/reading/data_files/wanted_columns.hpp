@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/data/record_form.hpp"
+#include "studies/reading/data_files/record_form.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 
 // The columns that a record selects by its key `columns`.

@@ -1,4 +1,4 @@
-#include "studies/reading/data/earlier_estimates.hpp"
+#include "studies/reading/data_files/earlier_estimates.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/reading/data/hdf5_columns.hpp"
+#include "studies/reading/data_files/hdf5_columns.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "results/data_reader.hpp"
-#include "studies/reading/data/record_columns.hpp"
-#include "studies/reading/data/wanted_columns.hpp"
+#include "studies/reading/data_files/record_columns.hpp"
+#include "studies/reading/data_files/wanted_columns.hpp"
 #include "studies/reading/text/readable_file.hpp"
 
 namespace frahm::studies {

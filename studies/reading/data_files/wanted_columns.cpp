@@ -1,4 +1,4 @@
-#include "studies/reading/data/wanted_columns.hpp"
+#include "studies/reading/data_files/wanted_columns.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
-#include "studies/reading/data/matrix_file.hpp"
+#include "studies/reading/data_files/matrix_file.hpp"
 
 #include <cmath>
 
 #include "results/data_reader.hpp"
-#include "studies/reading/data/matrix_market.hpp"
+#include "studies/reading/data_files/matrix_market.hpp"
 #include "studies/reading/text/csv_table.hpp"
 #include "studies/reading/text/readable_file.hpp"
 #include "studies/reading/text/study_source.hpp"

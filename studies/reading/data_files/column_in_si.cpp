@@ -1,4 +1,4 @@
-#include "studies/reading/data/column_in_si.hpp"
+#include "studies/reading/data_files/column_in_si.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/reading/data/record_form.hpp"
+#include "studies/reading/data_files/record_form.hpp"
 
 #include <fmt/format.h>
 
