@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/data_files/matrix_file.hpp"
 #include "studies/reading/text/readable_file.hpp"
 #include "studies/reading/text/study_source.hpp"
 

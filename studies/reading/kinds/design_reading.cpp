@@ -12,7 +12,6 @@
 #include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/study/study_context.hpp"
 #include "studies/reading/study/study_values.hpp"
-#include "studies/reading/text/spelling.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "studies/reading/kinds/tune_reading.hpp"
-#include "studies/reading/map/axis_reading.hpp"
 #include "studies/reading/map/sample_axis_reading.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/reading/map/record_axis.hpp"
 #include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
-#include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {

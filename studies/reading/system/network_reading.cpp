@@ -17,7 +17,6 @@
 #include "studies/reading/system/network_limits.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
 #include "studies/reading/system/signal_reading.hpp"
-#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -17,6 +17,7 @@
 #include "studies/map/map_plan.hpp"
 #include "studies/provenance/study_plan.hpp"
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/toml_building.hpp"
 #include "studies/reading/text/toml_reading.hpp"
