@@ -63,12 +63,12 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   const Shard& shard = options.shard;
   Remainder remainder;
   Summary& summary = remainder.so_far;
-  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> record) {
+  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> entry) {
     if (tile % shard.count != shard.index) return;
-    if (job.check) job.check(tile, record);
+    if (job.check) job.check(tile, entry);
     ++summary.tiles_resumed;
     summary.points.resumed += job.points(tile);
-    if (job.failed) summary.points.failed += job.failed(tile, record);
+    if (job.failed) summary.points.failed += job.failed(tile, entry);
   };
   const TileIndex index = index_tiles(find_logs(options.output), study, take_up);
   for (std::uint64_t tile = shard.index; tile < study.tiles; tile += shard.count) {
@@ -92,12 +92,12 @@ Salvage read_log_of_rank(const Job& job, const RunOptions& options, const LogHea
                          const std::vector<std::uint64_t>& tiles) {
   std::unordered_set<std::uint64_t> missing(tiles.begin(), tiles.end());
   Finished finished;
-  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> record) {
+  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> entry) {
     if (missing.erase(tile) == 0) return;  // of an earlier run
-    if (job.check) job.check(tile, record);
+    if (job.check) job.check(tile, entry);
     ++finished.tiles;
     finished.points += job.points(tile);
-    if (job.failed) finished.failed += job.failed(tile, record);
+    if (job.failed) finished.failed += job.failed(tile, entry);
   };
   try {
     index_tiles({log_of_rank(options, rank)}, study, take_up);

@@ -22,7 +22,7 @@
 // depend on who computed which tile, in what order, or how often they were stopped.
 namespace frahm::engine {
 
-// Computes one tile and writes its record to `out`, which is empty before the call. The record must depend on
+// Computes one tile and writes its entry to `out`, which is empty before the call. The entry must depend on
 // the tile alone. A kernel is used by one thread and may reuse its workspace.
 using Kernel = std::function<void(std::uint64_t tile, Bytes& out)>;
 
@@ -39,9 +39,9 @@ struct Job {
   std::function<Kernel(const StopAsked& stop_asked)> make_kernel;
   std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
   // Points of a finished tile that have no result; may be empty: all have one.
-  std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
-  // Throws BadRecord for a record out of a log that the kernel did not write; may be empty: all are good.
-  std::function<void(std::uint64_t tile, std::span<const std::byte> record)> check = {};
+  std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> entry)> failed;
+  // Throws BadEntry for an entry out of a log that the kernel did not write; may be empty: all are good.
+  std::function<void(std::uint64_t tile, std::span<const std::byte> entry)> check = {};
   // Points that the kernels of this process took from an earlier result; may be empty.
   std::function<std::uint64_t()> reused = {};
   // How often the kernels of this process have computed a model, where a tile takes many such evaluations and

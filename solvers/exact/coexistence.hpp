@@ -94,9 +94,9 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits
     return;
   }
   const double sign = wanted_.show == OrbitsWanted::Show::smallest ? -1.0 : 1.0;
-  const auto told = std::ranges::max_element(found.stable, {},
-                                             [&](const StableOrbit<N, H>& each) { return sign * each.peak; });
-  tell(system, found, static_cast<std::size_t>(told - found.stable.begin()), orbit);
+  const auto reported = std::ranges::max_element(
+      found.stable, {}, [&](const StableOrbit<N, H>& each) { return sign * each.peak; });
+  tell(system, found, static_cast<std::size_t>(reported - found.stable.begin()), orbit);
 }
 
 template <int N, int H>

@@ -15,7 +15,7 @@ namespace frahm::periodic {
 
 // Finds the periodic orbit of a system that has one alone: continuation and shooting, the rest position of
 // contacts that stick throughout, and the certificate. Where there may be several: coexistence.hpp,
-// sweep.hpp.
+// slow_sweep.hpp.
 template <int N, int H>
 class OrbitSearch {
  public:

@@ -127,7 +127,7 @@ class ResponseSolver {
                   std::span<double> out);
 
  private:
-  void solve_along(std::span<const mechanics::NetworkValues> points, const std::vector<char>& told,
+  void solve_along(std::span<const mechanics::NetworkValues> points, const std::vector<char>& reported,
                    const std::vector<char>& solved, std::span<ResponseSummary> found, std::span<double> out);
   const ResponseSummary& solve_next(const mechanics::NetworkValues& values);
 

@@ -28,8 +28,8 @@ class StableSearch {
   using Index = std::optional<std::size_t>;  // in Orbits::stable
 
   // Periods that a motion is followed for at most.
-  static constexpr int kOfStart = 324;  // one of many
-  static constexpr int kOfSweep = 972;  // just beyond a fold it lingers where the orbit was
+  static constexpr int kOfStart = 324;      // one of many
+  static constexpr int kOfSlowSweep = 972;  // just beyond a fold it lingers where the orbit was
 
   // Both must outlive the search.
   StableSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow, int most_multiple)
@@ -367,10 +367,10 @@ template <int N, int H>
 void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
                               Orbit<N, H>& orbit) {
   flow_.work().begin();
-  const StableOrbit<N, H>& told = found.stable[which];
+  const StableOrbit<N, H>& reported = found.stable[which];
   orbit = {};
-  orbit.z = told.returns.front();
-  orbit.multiple = told.multiple();
+  orbit.z = reported.returns.front();
+  orbit.multiple = reported.multiple();
   if (orbit.multiple > 1) flow_.set_forcing(over_multiple(system, orbit.multiple));
   shooting_.find(orbit);
   int passages = orbit.passages + found.passages;

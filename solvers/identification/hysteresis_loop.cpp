@@ -14,7 +14,7 @@ namespace {
 using Index = Eigen::Index;
 using std::numbers::pi;
 
-std::string wrong(const LoopTraces& traces, const std::optional<double>& omega) {
+std::string wrong(const LoopTraces& traces) {
   const std::size_t n = traces.time.size();
   const std::string bad = first_of(
       {unless_equal("time, displacement and force", {n, traces.displacement.size(), traces.force.size()}),
@@ -28,8 +28,6 @@ std::string wrong(const LoopTraces& traces, const std::optional<double>& omega) 
       return "time " + std::to_string(i + 1) + " is " + number(traces.time[i]) + " s after " +
              number(traces.time[i - 1]) + " s: times must increase";
   }
-  if (omega && !(std::isfinite(*omega) && *omega > 0.0))
-    return "the frequency is " + number(*omega) + " rad/s, it must be positive and finite";
   return "";
 }
 
@@ -201,8 +199,8 @@ void check_loss(double force, Identification& result) {
 
 }  // namespace
 
-Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> omega) {
-  if (const std::string why = wrong(traces, omega); !why.empty()) return no_result(why);
+Identification hysteresis_loop(const LoopTraces& traces) {
+  if (const std::string why = wrong(traces); !why.empty()) return no_result(why);
   const auto n = static_cast<Index>(traces.time.size());
   const double middle = 0.5 * (traces.time.front() + traces.time.back()),
                duration = traces.time.back() - traces.time.front();
@@ -211,7 +209,7 @@ Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> o
       force(traces.force.data(), n);
   if (displacement.maxCoeff() == displacement.minCoeff())
     return no_result("the displacement does not change");
-  const double start = omega.value_or(crossing_frequency(time, displacement));
+  const double start = crossing_frequency(time, displacement);
   if (start == 0.0)
     return no_result(
         "the displacement does not pass its middle upwards twice, so that the frequency cannot be found: it "
@@ -223,12 +221,11 @@ Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> o
     return no_result("the record of " + number(duration) + " s and " + std::to_string(n) + " samples is of " +
                      number(start * duration / (2.0 * pi)) + " periods of " + number(start) +
                      " rad/s: it takes one at least, and four samples in each");
-  const FourierFit x =
-      omega ? fourier_fit(time, displacement, *omega) : fourier_fit_from(time, displacement, start);
+  const FourierFit x = fourier_fit_from(time, displacement, start);
   const FourierFit F = fourier_fit(time, force, x.omega);
   Identification result;
   result.degrees_of_freedom = std::min(x.degrees_of_freedom, F.degrees_of_freedom);
-  set_estimates({x, F}, omega ? 0.0 : x.omega_variance, result);
+  set_estimates({x, F}, x.omega_variance, result);
   result.records = {record_of(traces, x, F)};
   set_intervals(result);
   check_loss(force.cwiseAbs().maxCoeff(), result);

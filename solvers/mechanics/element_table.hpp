@@ -112,7 +112,7 @@ inline bool has_own_contact(const Element& element) {
 }
 
 // The element by which element e is told: the first of an iwan element's parts, or itself.
-std::size_t told_by(const Network& network, std::size_t e);
+std::size_t reported_by(const Network& network, std::size_t e);
 
 // The first element whose values depend on the frequency (hysteretic), or null.
 const Element* frequency_dependent_element(const Network& network);

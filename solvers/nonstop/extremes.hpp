@@ -2,8 +2,8 @@
 
 #include "solvers/nonstop/forms.hpp"
 
-// The extremes of the traces, segment after segment: the sweep keeps a segment's steps; once they are proved
-// stationary points are solved, and both limits where the friction turns.
+// The extremes of the traces, segment after segment: the passage keeps a segment's steps; once they are
+// proved stationary points are solved, and both limits where the friction turns.
 namespace {
 
 template <class W>
@@ -50,7 +50,7 @@ FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Mask reached, 
   best.reached = select(where & reached & (value > best.reached), value, best.reached);
 }
 
-// A trace within a step of the sweep.
+// A trace within a step of the passage.
 template <class W>
 struct TraceStep {
   const W& w;
@@ -219,9 +219,9 @@ inline void search_segment(W& w, Mask among) {
 
 // In the lanes told.
 template <class W>
-inline void tell_extremes(const W& w, Mask told) {
+inline void tell_extremes(const W& w, Mask mask) {
   for (int t = 0; t < w.shape.traces; ++t) {
-    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
+    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(mask, x, view(array)[t]); };
     const Extreme &most = w.extreme[2 * t], &least = w.extreme[2 * t + 1];
     tell(w.pack.most, most.value);
     tell(w.pack.most_at, most.phase);

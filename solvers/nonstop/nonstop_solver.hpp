@@ -36,7 +36,7 @@ class NonstopSolver {
 
   // Solves the points in the first `count` lanes.
   void solve(int count);
-  bool is_found(int lane) const { return told(pack_.is_found, 0, lane) != 0.0; }
+  bool is_found(int lane) const { return value_in_lane(pack_.is_found, 0, lane) != 0.0; }
   // Of a point that is found: out[i] is quantity i. False if its energies do not balance; it then is not
   // found.
   bool quantities(int lane, std::span<double> out);
@@ -63,7 +63,7 @@ class NonstopSolver {
 
   bool asks(Measure measure) const;
   static std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
-  static double told(const double* array, std::size_t index, int lane) {
+  static double value_in_lane(const double* array, std::size_t index, int lane) {
     return array[index * kLanes + static_cast<std::size_t>(lane)];
   }
   static void give(double* array, std::size_t index, int lane, double value) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kSafe = 1e-7;  // a margin that is certainly not grazing
 
-// What the sweep finds of all lanes.
+// What the passage finds of all lanes.
 struct Passage {
   Mask proved;                    // nothing sticks
   Lanes at_reversals;             // least relative acceleration there, on either side

@@ -116,7 +116,7 @@ struct Work : C {
   Lanes* defect;    // [reversals]
   Lanes* jacobian;  // [reversals][reversals]
 
-  // The sweep.
+  // The passage.
   Complex* zeta;  // [modes] what the reversals leave of the modal coordinates
   Complex* next_zeta;
   Complex* first_zeta;
@@ -139,7 +139,7 @@ struct Work : C {
   Lanes* error;                     // [contacts] of the middle coefficient of the proof
   Lanes *first_sign, *last_sign;    // [contacts] of the velocity without friction, 0 before it moves
 
-  // What the sweep of a segment leaves for the search of extremes.
+  // What the passage of a segment leaves for the search of extremes.
   Complex* zeta_at;          // [steps][modes]
   Complex* osc_at;           // [steps][orders]
   Lanes* phase_at;           // [steps]

@@ -12,8 +12,8 @@ struct OrbitsWanted {
   int most_multiple = 6;  // of the forcing's period
   Show show = Show::largest;
 
-  static bool is_sweep(Show show) { return show == Show::up || show == Show::down; }
-  bool is_sweep() const { return is_sweep(show); }
+  static bool is_slow_sweep(Show show) { return show == Show::up || show == Show::down; }
+  bool is_slow_sweep() const { return is_slow_sweep(show); }
 };
 
 }  // namespace frahm::periodic

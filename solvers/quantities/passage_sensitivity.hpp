@@ -62,9 +62,9 @@ class PassageSensitivity {
 
   // delta over a passage that begins with delta = `start`; returns delta at its end. The steps, laid out and
   // expanded, and the changes found in them must outlive what is asked below.
-  typename S::State sweep(Steps steps, std::span<const Event> changes, const typename S::State& start);
+  typename S::State carry(Steps steps, std::span<const Event> changes, const typename S::State& start);
 
-  // Why there is no derivative across the changes of the last sweep; "" if there is one.
+  // Why there is no derivative across the changes of the last passage; "" if there is one.
   const char* why_none() const { return why_none_; }
 
   // One side of a change: the mode there, and the instant seen from inside it.
@@ -151,7 +151,7 @@ const ModeDerivative<N, H>& PassageSensitivity<N, H>::mode(std::size_t index) {
 }
 
 template <int N, int H>
-typename Sizes<N, H>::State PassageSensitivity<N, H>::sweep(Steps steps, std::span<const Event> changes,
+typename Sizes<N, H>::State PassageSensitivity<N, H>::carry(Steps steps, std::span<const Event> changes,
                                                             const typename S::State& start) {
   steps_ = steps;
   polynomials_.resize(std::max(polynomials_.size(), steps.size()));

@@ -201,9 +201,9 @@ std::vector<Quantity> all_quantities(const Network& network) {
   return result;
 }
 
-std::vector<Quantity> with_always_recorded(std::vector<Quantity> listed, const Network& network) {
+std::vector<Quantity> with_always_stored(std::vector<Quantity> listed, const Network& network) {
   for (const Quantity& each : all_quantities(network))
-    if (row_of(each.measure).recorded_always && std::ranges::find(listed, each) == listed.end())
+    if (row_of(each.measure).stored_always && std::ranges::find(listed, each) == listed.end())
       listed.push_back(each);
   return listed;
 }

@@ -111,7 +111,7 @@ std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
 // These, and behind them what every record has, whatever is listed: how the search ended, and whether its
 // response is all there is.
-std::vector<Quantity> with_always_recorded(std::vector<Quantity> listed, const mechanics::Network& network);
+std::vector<Quantity> with_always_stored(std::vector<Quantity> listed, const mechanics::Network& network);
 
 // Whether the page of an atlas shows the quantity unasked: peaks of masses and signals, strokes of the
 // springs, stops and regimes, the shares of what dissipates, and the status.

@@ -197,13 +197,13 @@ void EnergyAccount::Account::add(const Form& form) {
 void EnergyAccount::list_losses(Account& account) const {
   for (std::size_t e = 0; e < system_.coefficients.size(); ++e) {
     const mechanics::ElementCoefficients& law = system_.coefficients[e];
-    const std::size_t told = mechanics::told_by(assembly_.network(), e);
+    const std::size_t reported = mechanics::reported_by(assembly_.network(), e);
     if (law.damping != 0.0) {
-      account.losses.push_back({told, law.damping});
+      account.losses.push_back({reported, law.damping});
       account.add(forms_.velocity(assembly_.incidences()[e]));
     }
     if (law.internal_damping != 0.0) {
-      account.losses.push_back({told, 1.0 / law.internal_damping});
+      account.losses.push_back({reported, 1.0 / law.internal_damping});
       Form force = forms_.zero();
       force.z[2 * flow_.equations().masses() + law.internal] = 1.0;
       account.add(force);
@@ -211,7 +211,7 @@ void EnergyAccount::list_losses(Account& account) const {
     if (law.friction != 0.0) {
       const mechanics::ContactShare& share = assembly_.shares()[e];
       account.losses.push_back(
-          {told, law.friction, Power::sliding, static_cast<Index>(share.contact), share.orientation});
+          {reported, law.friction, Power::sliding, static_cast<Index>(share.contact), share.orientation});
       account.add(forms_.velocity(assembly_.incidences()[e]));
     }
   }

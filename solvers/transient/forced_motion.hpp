@@ -14,14 +14,14 @@ namespace frahm::transient {
 
 // The excitation's phase: omega t at constant frequency; in a run-up or run-down
 //   phi(t) = omega_0 t + alpha t^2 / 2  until the frequency has reached `to`, where it stays.
-struct FrequencySweep {
+struct RunUp {
   double to = 0.0;    // [rad/s], > 0
   double rate = 0.0;  // |alpha| [rad/s^2], > 0
 };
 
 struct ForcedOptions {
   double from = 0.0;                             // frequency at t = 0 [rad/s], > 0
-  FrequencySweep sweep = {};                     // rate 0: none; must be none beside records
+  RunUp run_up = {};                             // rate 0: none; must be none beside records
   std::vector<RecordedExcitation> records = {};  // of each recorded component of the excitation
   double duration = 0.0;                         // [s], > 0
   int samples = 0;

@@ -64,9 +64,8 @@ class Trajectory {
   double time() const { return time_; }                   // [s]
   double step() const { return flow_.equations().step; }  // [s]
 
-  // Of a mass or signal (mechanics/coordinates.hpp) now and at the start [m].
+  // Of a mass or signal (mechanics/coordinates.hpp) now [m].
   double displacement(std::size_t coordinate) const;
-  double first_displacement(std::size_t coordinate) const { return first_displacements_[coordinate]; }
   double energy_norm() const { return flow_.equations().energy_norm(z_); }  // [sqrt(J)]
   // The energy norm of the state's distance from where its mode would come to rest [sqrt(J)].
   double distance_from_rest() const;
@@ -138,7 +137,6 @@ class Trajectory {
   periodic::Forms<Eigen::Dynamic, Eigen::Dynamic> forms_;
   std::vector<mechanics::Incidence> signals_;
   std::vector<TurningPoints> turning_points_;  // of each coordinate
-  std::vector<double> first_displacements_;    // of each coordinate [m]
   std::vector<std::vector<Stop>> stops_;
   std::vector<std::vector<Touch>> touches_;
   std::size_t next_sample_ = 0;

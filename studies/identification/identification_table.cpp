@@ -6,9 +6,10 @@
 #include <cmath>
 #include <ostream>
 
-#include "studies/identification/identification_record.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/identification/identification_columns.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {

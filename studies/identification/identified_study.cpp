@@ -9,12 +9,15 @@
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/modes.hpp"
-#include "studies/identification/identification_record.hpp"
-#include "studies/motion/motion_record.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/toml_building.hpp"
-#include "studies/reading/toml_writing.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/identification/identification_columns.hpp"
+#include "studies/identification/identified_study.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/provenance/stored_study.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 
 namespace frahm::studies {
 namespace {

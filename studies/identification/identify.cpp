@@ -9,7 +9,8 @@
 #include "studies/identification/free_decay_start.hpp"
 #include "studies/identification/grey_box_task.hpp"
 #include "studies/identification/identification_result.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -47,7 +48,7 @@ void name_parameters(const Study& study, Identification& fit) {
                        method_name(study.identify()->method)));
     const auto taken = static_cast<std::size_t>(place - names.begin());
     identification::Estimate alias = fit.estimates[taken];
-    const std::string unit = recorded_unit(study, parameter.parameter);
+    const std::string unit = unit_in_file(study, parameter.parameter);
     if (unit != "1" && unit != alias.unit)
       fail(rules::two_units,
            fmt::format("is in {}, and the estimate \"{}\" in {}", unit, parameter.estimate, alias.unit));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // [compare]: the same points under another friction law or crank profile, or another of several responses,
 // beside the study's own.

@@ -9,8 +9,9 @@
 #include <set>
 
 #include "results/store_error.hpp"
+#include "studies/map/earlier_axes.hpp"
 #include "studies/map/value_match.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/quantities/units.hpp"
 
 namespace frahm::studies {
 namespace {

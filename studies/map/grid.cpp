@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "studies/map/grid.hpp"
 #include "studies/map/motion_cost.hpp"
 #include "studies/map/orbit_cost.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

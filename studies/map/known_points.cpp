@@ -14,10 +14,10 @@
 #include "results/store_error.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/earlier_file.hpp"
-#include "studies/map/record_check.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/map/entry_check.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -8,7 +8,8 @@
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
-#include "studies/reading/name_pattern.hpp"
+#include "studies/map/output_quantities.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -44,7 +45,7 @@ std::vector<periodic::Quantity> listed_quantities(const Study& study) {
     for (const periodic::Quantity& quantity : quantities_called(study, name))
       if (std::find(result.begin(), result.end(), quantity) == result.end()) result.push_back(quantity);
   }
-  return periodic::with_always_recorded(std::move(result), study.network);
+  return periodic::with_always_stored(std::move(result), study.network);
 }
 
 // A name in the record chosen by the study, and its position.
@@ -160,11 +161,11 @@ std::vector<periodic::QuantityDescription> output_variables(
     const auto compared = compared_variables(study);
     result.insert(result.end(), compared.begin(), compared.end());
   }
-  check_names_of_record(study, result);
+  check_names_in_file(study, result);
   return result;
 }
 
-void check_names_of_record(const Study& study, const std::vector<periodic::QuantityDescription>& variables) {
+void check_names_in_file(const Study& study, const std::vector<periodic::QuantityDescription>& variables) {
   std::map<std::string, Taken> taken = names_of_coordinates(study);
   for (const auto& [name, what] : names_of_groups(study)) {
     const auto other = taken.find(name);

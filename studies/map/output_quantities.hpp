@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
@@ -18,7 +18,7 @@ std::vector<periodic::QuantityDescription> output_variables(
 
 // Throws StudyError where two names of a record of these variables would be the same, and for a page or
 // summary that shows what is not recorded.
-void check_names_of_record(const Study& study, const std::vector<periodic::QuantityDescription>& variables);
+void check_names_in_file(const Study& study, const std::vector<periodic::QuantityDescription>& variables);
 
 // The name of the quantity that summaries of a sweep tell: that of its headline, else the first mass's peak.
 std::string headline_of(const Study& study);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // Simulated sensor measurements of the motion of a study, to try an experiment before it is made.
 namespace frahm::studies {

@@ -7,7 +7,8 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/motion/motion_columns.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 
@@ -27,7 +28,7 @@ void MotionColumns::add_number(const std::string& name, std::string_view unit, c
 
 void MotionColumns::add_frequencies(const std::string& name, const std::string& long_name,
                                     const std::string& dimension, std::vector<double> omega) {
-  const UsualUnit unit = recorded_frequency_unit(study_);
+  const UsualUnit unit = frequency_unit_in_file(study_);
   for (double& each : omega) each /= unit.si_factor;
   add(name, unit.text, long_name, dimension, std::move(omega));
 }

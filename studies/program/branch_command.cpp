@@ -15,20 +15,24 @@
 #include "results/map_writer.hpp"
 #include "solvers/branches/branch.hpp"
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/map/branch_record.hpp"
+#include "studies/map/branch_group.hpp"
 #include "studies/map/branch_rows.hpp"
 #include "studies/map/output_quantities.hpp"
+#include "studies/program/branch_command.hpp"
 #include "studies/program/branch_table.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/assignment.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/provenance.hpp"
+#include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_reading.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/provenance.hpp"
+#include "studies/reading/study/assignment.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
+#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -97,7 +101,7 @@ class Counter {
   Counter(const Study& study, std::size_t parameter, engine::ProgressStyle style)
       : study_(study), parameter_(parameter), form_(engine::progress_form(style)) {}
   ~Counter() {
-    if (told_) std::cerr << '\r' << std::setw(kWidth) << "" << '\r';
+    if (has_printed_) std::cerr << '\r' << std::setw(kWidth) << "" << '\r';
   }
   void operator()(const periodic::BranchPoint& point) {
     ++points_;
@@ -106,7 +110,7 @@ class Counter {
         form_ == engine::ProgressForm::bar || form_ == engine::ProgressForm::coloured_bar;
     if (!on_terminal || now < next_) return;
     next_ = now + std::chrono::milliseconds(100);
-    told_ = true;
+    has_printed_ = true;
     const SpokenValue value = spoken_value(study_, parameter_, point.parameter);
     const std::string text = fmt::format("{} points, {} = {:.6g} {}", points_,
                                          study_.parameters.list[parameter_].name, value.value, value.unit);
@@ -120,7 +124,7 @@ class Counter {
   std::size_t parameter_;
   engine::ProgressForm form_;
   std::size_t points_ = 0;
-  bool told_ = false;
+  bool has_printed_ = false;
   std::chrono::steady_clock::time_point next_ =
       std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
 };
@@ -151,12 +155,12 @@ void check_place(const BranchCommandOptions& options) {
 // parameters: SI.
 std::string beginning_of(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::span<const double> parameters) {
-  std::vector<std::size_t> told = axis_parameters_beside(study, along);
+  std::vector<std::size_t> named = axis_parameters_beside(study, along);
   for (const std::string& text : options.at)
-    for (const Assignment& each : parse_assignments(study, "--at", text)) told.push_back(each.parameter);
+    for (const Assignment& each : parse_assignments(study, "--at", text)) named.push_back(each.parameter);
   std::map<std::string, std::string> by_name{
       {study.parameters.list[along].name, spoken_text(study, along, parameters[along])}};
-  for (const std::size_t i : told)
+  for (const std::size_t i : named)
     by_name[study.parameters.list[i].name] = spoken_text(study, i, parameters[i]);
   std::vector<std::string> values;
   for (const auto& [name, value] : by_name) values.push_back(fmt::format("{} = {}", name, value));
@@ -207,9 +211,9 @@ void write_result(const BranchCommandOptions& options, const StudyPlan& plan, st
                   std::span<const double> parameters, const std::vector<periodic::Quantity>& quantities,
                   const periodic::Branch& branch, const std::string& started) {
   const Study& study = plan.study;
-  const RunRecord run{.command = options.command, .threads = 1, .started = started};
+  const RunFacts run{.command = options.command, .threads = 1, .started = started};
   results::MapWriter writer(*options.output, file_layout(plan, run));
-  BranchRecord(study, along, axis_parameters_beside(study, along), quantities, writer)
+  BranchGroup(study, along, axis_parameters_beside(study, along), quantities, writer)
       .append(parameters, branch);
   writer.write_texts("provenance", provenance(plan, run, {}));
   writer.finish();

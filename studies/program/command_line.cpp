@@ -10,6 +10,7 @@
 
 #include "studies/program/assist_command.hpp"
 #include "studies/program/command_examples.hpp"
+#include "studies/program/command_line.hpp"
 #include "studies/program/completion.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/explain_command.hpp"
@@ -20,9 +21,9 @@
 #include "studies/program/status_command.hpp"
 #include "studies/program/verify_command.hpp"
 #include "studies/program/version_command.hpp"
-#include "studies/reading/plain_text.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/plain_text.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -370,7 +371,7 @@ void describe(CLI::App& program, CommandLine& line) {
 }
 
 // What CLI11 knows of an option, in our own words.
-CommandOption told(const CLI::Option& option) {
+CommandOption option_of(const CLI::Option& option) {
   CommandOption own{.what = option.get_description(),
                     .is_positional = option.get_positional(),
                     .is_required = option.get_required(),
@@ -384,11 +385,11 @@ CommandOption told(const CLI::Option& option) {
   return own;
 }
 
-Command told(const CLI::App& app, const std::string& name) {
+Command command_of(const CLI::App& app, const std::string& name) {
   Command own{.name = name, .what = app.get_description(), .foot = app.get_footer()};
-  for (const CLI::Option* option : app.get_options()) own.options.push_back(told(*option));
+  for (const CLI::Option* option : app.get_options()) own.options.push_back(option_of(*option));
   for (const CLI::App* each : app.get_subcommands(nullptr))
-    own.commands.push_back(told(*each, name + " " + each->get_name()));
+    own.commands.push_back(command_of(*each, name + " " + each->get_name()));
   return own;
 }
 
@@ -469,7 +470,7 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   describe(program, line);
   for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
   line.branch.command = line.run.command;
-  line.commands = told(program, "frahm");
+  line.commands = command_of(program, "frahm");
   if (const auto wrong = unfit_argument(argc, argv)) {
     complaints << "frahm: " << *wrong << '\n';
     return exit_code::wrong_input;

@@ -16,11 +16,13 @@
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/measurements.hpp"
+#include "studies/program/data_export.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/stored_study.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -7,12 +7,13 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/exit_code.hpp"
-#include "studies/program/record_words.hpp"
-#include "studies/reading/element_keys.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_keys.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/program/explain_command.hpp"
+#include "studies/program/result_words.hpp"
+#include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/quantities/units.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -115,7 +116,7 @@ bool names(const std::string& word, const periodic::QuantityRow& row) {
   return word == suffix || is_numbered(word, suffix) || (*name_of(row.owner) && word.ends_with("_" + suffix));
 }
 
-std::string told(const periodic::QuantityRow& row) {
+std::string text_of(const periodic::QuantityRow& row) {
   const std::string owner = name_of(row.owner);
   const std::string name = owner.empty() ? row.suffix : fmt::format("{}_{}", owner, row.suffix);
   std::string meaning = row.meaning;
@@ -137,7 +138,7 @@ std::vector<std::string> quantities_called(const std::string& word) {
   }
   std::vector<std::string> found;
   for (const auto& row : periodic::quantity_table()) {
-    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(told(row));
+    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(text_of(row));
   }
   return found;
 }
@@ -155,7 +156,7 @@ std::string written_range(mechanics::Range range) {
 }
 
 // "stiffness = k [N/m], of what turns [N m/rad], >= 0".
-std::string told(const mechanics::ValueKey& value, bool is_optional) {
+std::string text_of(const mechanics::ValueKey& value, bool is_optional) {
   std::string text = value.key;
   if (*value.symbol) text += fmt::format(" = {}", value.symbol);
   const Quantity along = element_quantity(value.dimension, false),
@@ -166,7 +167,7 @@ std::string told(const mechanics::ValueKey& value, bool is_optional) {
 }
 
 // "; for kind = sweep or transient" where not all forms of the section have the key.
-std::string owners_told(const KeyOwners& owners) {
+std::string owners_text(const KeyOwners& owners) {
   if (*owners.of == '\0') return "";
   const std::string decider = *owners.decider ? fmt::format("{} = ", owners.decider) : "";
   return fmt::format("; for {}{}", decider, listed(separated(owners.of), " or "));
@@ -176,11 +177,11 @@ std::string owners_told(const KeyOwners& owners) {
 std::string meaning_of(const StudyKey& key) {
   const std::vector<std::string> words = words_of(key);
   const std::string choices = words.empty() ? "" : fmt::format(" ({})", listed(words, " or "));
-  return key.meaning + choices + owners_told(key.owners);
+  return key.meaning + choices + owners_text(key.owners);
 }
 
 // The values of a type of element, and what stands of its other keys in the table of keys.
-std::string keys_told(const std::string& type) {
+std::string keys_text(const std::string& type) {
   const mechanics::ElementKind& kind = kind_called(type);
   std::string text;
   for (const std::string& key : keys_of_type(type)) {
@@ -191,7 +192,7 @@ std::string keys_told(const std::string& type) {
     }
     const bool is_optional =
         found == &kind.slope || found == &kind.cubic || (found == &kind.second && kind.second_is_optional);
-    text += "\n  " + (found ? told(*found, is_optional)
+    text += "\n  " + (found ? text_of(*found, is_optional)
                             : fmt::format("{}: {}", key, meaning_of(study_key("element", key))));
   }
   return text;
@@ -205,7 +206,7 @@ std::vector<std::string> types_called(const std::string& word) {
         type == iwan ? fmt::format("the sum of its sliders, each a jenkins: {}", kind_called(type).force)
                      : kind_called(type).force;
     found.push_back(fmt::format("{}: type of an [[element]], u across it, v = u': its force is {}{}", type,
-                                force, keys_told(type)));
+                                force, keys_text(type)));
   }
   return found;
 }
@@ -273,7 +274,7 @@ std::vector<std::string> words_of_studies() {
   }
   for (const Meaning& each : flag_words) words.push_back(each.word);
   for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
-  for (const RecordWord& each : record_words()) words.emplace_back(each.name);
+  for (const ResultWord& each : result_words()) words.emplace_back(each.name);
   for (const Meaning& each : further_meanings) words.push_back(each.word);
   return words;
 }
@@ -295,7 +296,7 @@ int explain_command(const std::string& word, std::ostream& out) {
     if (word == each.word) found.push_back(each.text);
   }
   const bool is_known = !found.empty();
-  for (std::string& text : is_known ? record_words_named(word) : record_words_called(word))
+  for (std::string& text : is_known ? result_words_named(word) : result_words_called(word))
     found.push_back(std::move(text));
   // Words of our own come first: UDUNITS has a unit called `force`.
   if (found.empty()) found = units_called(word);

@@ -10,17 +10,18 @@
 #include <ostream>
 
 #include "results/map_reader.hpp"
-#include "studies/identification/identification_record.hpp"
+#include "studies/identification/identification_columns.hpp"
 #include "studies/identification/identified_study.hpp"
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/grid.hpp"
+#include "studies/program/export_command.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/unit_words.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 #include "studies/tuning/schedule_table.hpp"
 #include "studies/tuning/sweep_study.hpp"
-#include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -8,8 +8,8 @@
 #include "engine/io_error.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/study_changes.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/study_changes.hpp"
 
 namespace frahm::studies {
 

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "studies/program/help_text.hpp"
 #include "studies/program/starter_studies.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {

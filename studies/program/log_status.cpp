@@ -12,13 +12,13 @@
 #include "engine/survey.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/array_tasks.hpp"
+#include "studies/provenance/array_tasks.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_logs_told = 10;  // listed by name; the others are counted
+constexpr std::size_t most_logs_listed = 10;  // listed by name; the others are counted
 
 // The job of some logs, and its plan.
 struct LoggedJob {
@@ -145,7 +145,7 @@ void print_log_status(const std::filesystem::path& output, const std::vector<std
   if (survey.missing.empty()) fmt::print(out, "{:<22} frahm merge {}\n", "all is computed", output.string());
   fmt::print(out, "{:<22} {}\n{:<22} {}\n", "fingerprint_physics", study.fingerprint.physics,
              "fingerprint_grid", study.fingerprint.grid);
-  if (survey.writers.size() > most_logs_told) {
+  if (survey.writers.size() > most_logs_listed) {
     fmt::print(out, "{:<22} {}\n", "logs", survey.writers.size());
   } else {
     for (const auto& writer : survey.writers) fmt::print(out, "{:<22} {}\n", "log", writer.log.string());

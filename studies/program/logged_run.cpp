@@ -18,8 +18,8 @@
 #include "studies/program/growing.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/study_changes.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -196,7 +196,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::clock_t cpu_start = std::clock();
-  RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};
+  RunFacts facts{.command = options.command, .threads = 0, .started = utc_now()};
   check_result_place(run.output, options.study, run.fresh);
   std::optional<engine::OutputLock> lock;
   if (const auto finished = begin(plan, run, options.from, lock)) {
@@ -209,8 +209,8 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
-  record.threads = summary.threads;
-  record.ranks = summary.ranks;
+  facts.threads = summary.threads;
+  facts.ranks = summary.ranks;
   const engine::StopRequest stop(run.time_budget, Clock::now() - run.begun, run.called_off);
   const AssemblyOptions assembly{.output = run.output,
                                  .logs = engine::find_logs(run.output),
@@ -219,7 +219,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
                                  .stop_asked = [&] { return stop.asked(); }};
   check_result_place(run.output, options.study, run.fresh);  // again: it may have changed
   const Clock::time_point computed = Clock::now();
-  if (!work.assemble(record, assembly, *lock))
+  if (!work.assemble(facts, assembly, *lock))
     return tell_unwritten(stop, run.output, std::chrono::duration<double>(Clock::now() - computed).count());
   remove_study_notes(run.output);
   return work.tell_made({.points = summary.points.done - summary.points.resumed - summary.points.reused,

@@ -13,7 +13,7 @@
 #include "studies/program/exit_code.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/program/scatter_table.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -16,8 +16,8 @@
 #include "studies/program/map_table.hpp"
 #include "studies/program/run_tuning.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
 #include "studies/tuning/assemble_tuning.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 
@@ -45,7 +45,7 @@ std::vector<std::filesystem::path> places_of_note(const MergeOptions& options,
   return places;
 }
 
-RunRecord record_of(const MergeOptions& options) {
+RunFacts facts_of(const MergeOptions& options) {
   return {
       .command = fmt::format("frahm merge {}", options.output.string()), .threads = 1, .started = utc_now()};
 }
@@ -102,7 +102,7 @@ int merge_map(const MergeOptions& options, const std::vector<std::filesystem::pa
   refuse_loss_of_source(options, plan);
   refuse_another_result(options, plan);
   const engine::StopRequest stop(std::nullopt);
-  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, stop), lock);
+  const Assembly assembly = assemble(plan, facts_of(options), assembly_of(options, logs, stop), lock);
   if (!assembly.finished) return tell_stopped(options, stop);
   if (assembly.missing_tiles == 0) {
     remove_notes(options, logs);
@@ -120,7 +120,7 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
   check_note_gives(plan, noted, header);
   refuse_another_result(options, plan);
   const engine::StopRequest stop(std::nullopt);
-  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, stop), lock);
+  const auto result = assemble_tuning(plan, facts_of(options), assembly_of(options, logs, stop), lock);
   if (!result) return tell_stopped(options, stop);
   const std::uint64_t missing = plan.tiles - result->starts.size();
   if (missing == 0) {
@@ -144,7 +144,7 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
     if (study && study->fingerprint != fingerprint_of(there)) return false;
   }
   refuse_damage(there, logs.empty() ? "frahm run --fresh computes it anew"
-                                             : "remove it, and merge makes it anew of the shard logs");
+                                    : "remove it, and merge makes it anew of the shard logs");
   engine::remove_logs(logs);
   remove_notes(options, logs);
   fmt::print(out, "{} is finished already, nothing is left to merge\n", options.output.string());

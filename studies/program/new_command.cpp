@@ -5,10 +5,11 @@
 
 #include "engine/io_error.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/new_command.hpp"
 #include "studies/program/starter_studies.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "studies/reading/plain_text.hpp"
+#include "studies/program/plain_output.hpp"
+#include "studies/reading/text/plain_text.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -12,7 +12,7 @@
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/map/way_of_sweep.hpp"
+#include "studies/map/way_of_slow_sweep.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -54,10 +54,10 @@ void describe_all(const Study& study, const std::vector<periodic::Quantity>& qua
   }
 }
 
-// The values of the points on the way to a point, that point last (way_of_sweep).
+// The values of the points on the way to a point, that point last (way_of_slow_sweep).
 std::vector<mechanics::NetworkValues> values_on_way(const Study& study, std::span<const double> parameters) {
   std::vector<mechanics::NetworkValues> way;
-  for (std::vector<double>& point : way_of_sweep(study, study.orbits_wanted(), parameters))
+  for (std::vector<double>& point : way_of_slow_sweep(study, study.orbits_wanted(), parameters))
     evaluate(study.values, study.parameters, point, way.emplace_back());
   return way;
 }
@@ -137,7 +137,7 @@ void add_comparison(const Study& study, std::span<const double> parameters,
   }
   RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study),
                   compared_orbits(study));
-  std::vector<std::vector<double>> way = way_of_sweep(study, compared_orbits(study), parameters);
+  std::vector<std::vector<double>> way = way_of_slow_sweep(study, compared_orbits(study), parameters);
   other.begin_row();
   for (std::vector<double>& point : way) other.add_point(point);
   other.solve();

@@ -10,8 +10,8 @@
 #include "studies/program/modes_table.hpp"
 #include "studies/program/point_gradient.hpp"
 #include "studies/program/point_responses.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 

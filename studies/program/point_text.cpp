@@ -8,7 +8,7 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/point_report.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -5,7 +5,8 @@
 
 #include "engine/progress.hpp"
 #include "engine/team.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/program/rank_table.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -3,7 +3,7 @@
 #include <iosfwd>
 
 #include "solvers/mechanics/modes.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

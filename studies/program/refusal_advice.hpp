@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/fingerprint.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
 namespace frahm::studies {
 

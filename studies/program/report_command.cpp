@@ -7,10 +7,11 @@
 #include "results/report/page_data.hpp"
 #include "results/report/report_page.hpp"
 #include "studies/program/paper_figures.hpp"
+#include "studies/program/report_command.hpp"
 #include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {

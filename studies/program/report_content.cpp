@@ -7,10 +7,11 @@
 #include <optional>
 
 #include "solvers/transient/motion_quantity.hpp"
+#include "studies/program/report_content.hpp"
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
-#include "studies/reading/name_pattern.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/provenance/stored_study.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {

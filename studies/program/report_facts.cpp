@@ -11,10 +11,11 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/crank_motion.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -32,7 +33,7 @@ results::Column excitation_frequency(const Study& study) {
 
 // What the unit of the run's frequency is in rad/s, which the page takes periods from; none of SI.
 std::vector<results::Column> frequency_unit_in_si(const Study& study) {
-  const UsualUnit unit = recorded_frequency_unit(study);
+  const UsualUnit unit = frequency_unit_in_file(study);
   if (unit.si_factor == 1.0) return {};
   return {{.variable = {.name = "frequency_unit",
                         .unit = unit.text,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/run.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -9,15 +9,16 @@
 
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
-#include "studies/identification/identification_record.hpp"
+#include "studies/identification/identification_columns.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
-#include "studies/reading/unit_words.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/provenance_checksum.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/program/status_command.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/provenance_checksum.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -15,9 +15,11 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/part_file.hpp"
-#include "studies/reading/assignment.hpp"
-#include "studies/reading/plain_text.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/program/study_note.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/assignment.hpp"
+#include "studies/reading/text/plain_text.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -104,8 +106,9 @@ void refuse_foreign_file(const std::filesystem::path& path, const std::filesyste
   throw engine::IoError(path, "is there already and is no note of frahm; remove or rename it");
 }
 
-// Other shards may be writing the same note at this moment: each renames its complete file. Where two machines
-// share no locks, each may take the other's part for one left by a killed process; then it is written again.
+// Other shards may be writing the same note at this moment: each renames its complete file. Where two
+// machines share no locks, each may take the other's part for one left by a killed process; then it is
+// written again.
 void write_whole(const std::filesystem::path& path, const std::string& text) {
   constexpr int most_attempts = 20;
   for (int attempt = 1;; ++attempt) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/fingerprint.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
 // The note beside an unfinished output that holds the study of its shard logs, so that these can be merged
 // without the study's file: `<output>.<fingerprint>.frahm-study`. Its lines: the path of the study, the

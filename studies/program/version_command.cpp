@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "engine/mpi.hpp"
-#include "studies/record/build_facts.hpp"
+#include "studies/provenance/build_facts.hpp"
 
 namespace frahm::studies {
 namespace {

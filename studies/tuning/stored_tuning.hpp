@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/tuning/tuned_design.hpp"
 
 namespace frahm::studies {

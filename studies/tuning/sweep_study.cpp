@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/reading/decimal_digits.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/toml_building.hpp"
-#include "studies/reading/toml_reading.hpp"
-#include "studies/reading/toml_section.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/decimal_digits.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
+#include "studies/tuning/sweep_study.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "solvers/tuning/exchange/band_scan.hpp"
-#include "studies/record/group_columns.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/provenance/group_columns.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 
 // Shared by the parts of the record of a tuning.
 namespace frahm::studies {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/tuning/optimum.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

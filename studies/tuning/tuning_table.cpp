@@ -9,10 +9,11 @@
 #include <ostream>
 
 #include "solvers/algebra/no_value.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 #include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
+#include "studies/tuning/tuning_table.hpp"
 
 namespace frahm::studies {
 namespace {

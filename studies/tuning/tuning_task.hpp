@@ -2,7 +2,7 @@
 
 #include "solvers/tuning/records/record_task.hpp"
 #include "solvers/tuning/task.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

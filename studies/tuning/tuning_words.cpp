@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "studies/record/provenance.hpp"
+#include "studies/provenance/provenance.hpp"
 #include "studies/tuning/tuning_about.hpp"
 
 namespace frahm::studies {

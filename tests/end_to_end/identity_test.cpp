@@ -21,7 +21,7 @@ constexpr double kOtherUnit = 1e-14;  // relative: a number in one unit, and con
 
 // A folder with the studies and data of the fingerprint's test.
 void copy_mutants(const Folder& folder) {
-  const std::filesystem::path from = FRAHM_SOURCE_DIR "/tests/studies/record/mutants";
+  const std::filesystem::path from = FRAHM_SOURCE_DIR "/tests/studies/provenance/mutants";
   for (const auto& entry : std::filesystem::directory_iterator(from))
     std::filesystem::copy_file(entry.path(), folder / entry.path().filename().string());
 }

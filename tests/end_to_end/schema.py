@@ -57,7 +57,7 @@ def keys(section, node):
 
 # The readers allow the keys of the table that the schema is printed from; each is one that a reader asks for.
 tables = ("study_keys.cpp", "study_words.hpp")
-readers = [*sources.glob("studies/reading/*.?pp"), sources / "solvers/mechanics/element_table.cpp"]
+readers = [*sources.glob("studies/reading/**/*.?pp"), sources / "solvers/mechanics/element_table.cpp"]
 asked_somewhere = {word for each in readers if each.name not in tables for word in re.findall(r'"([\w.]+)"', each.read_text())}
 asked_somewhere |= {part for word in asked_somewhere for part in word.split(".")}  # read_tables(..., "excitation.force")
 unread = [f"{section}.{key}" for section, key, _ in keys("", schema) if key != "repeat" and key not in asked_somewhere]
@@ -67,7 +67,7 @@ assert not unread, f"no reader asks for {unread}"
 asks = re.compile(r"\.(?:find|require|text|text_or|identifier|number|boolean_or|integer_or|choice|choice_as<[\w:]+>)\(\s*\"(\w+)\"")
 all_keys = {key for _, key, _ in keys("", schema)} | set(schema["properties"])
 of_values = {"value", "unit", "table", "of", "extremum"}  # of numbers, of parameters, and a column of data
-for source in sorted(sources.glob("studies/reading/*.cpp")):
+for source in sorted(sources.glob("studies/reading/**/*.cpp")):
     asked = set(asks.findall(source.read_text()))
     assert asked <= all_keys | of_values, (source, asked - all_keys - of_values)
 

@@ -114,7 +114,7 @@ class Program final : public Ipopt::TNLP {
                              Number optimality, Number, Number, Number, Number, Number, Index,
                              const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
     problem_.record().iterations = iteration;
-    if (mode == Ipopt::RegularMode) problem_.record_iteration(iteration, infeasibility, optimality, value);
+    if (mode == Ipopt::RegularMode) problem_.note_iteration(iteration, infeasibility, optimality, value);
     return !problem_.ends();
   }
 

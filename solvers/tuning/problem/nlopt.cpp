@@ -96,7 +96,7 @@ class Program {
     if (problem_.improvements() == recorded) return;
     recorded = problem_.improvements();
     const double residual = problem_.best_residual();
-    problem_.record_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
+    problem_.note_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
     if (is_global_) return;
     if (residual <= tolerance_ && problem_.best_infeasibility() <= feasibility_) nlopt_force_stop(solver_);
   }

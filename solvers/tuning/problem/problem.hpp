@@ -79,7 +79,7 @@ enum class Ending {
 inline constexpr double kAcceptable = 1e3;
 const char* name(Ending ending);
 
-struct IterationRecord {
+struct Iteration {
   int iteration = 0;
   double objective = 0.0;
   double infeasibility = 0.0;
@@ -101,7 +101,7 @@ struct Solution {
   std::vector<double> constraint_multipliers;                // of each constraint
   int iterations = 0;   // of NLopt's algorithms: improvements of the best point
   int evaluations = 0;  // points at which objective and constraints were evaluated
-  std::vector<IterationRecord> history;
+  std::vector<Iteration> history;
 };
 
 struct SolverOptions {

@@ -183,8 +183,7 @@ void ScaledProblem::note_point() {
   }
 }
 
-void ScaledProblem::record_iteration(int iteration, double infeasibility, double optimality,
-                                     double objective) {
+void ScaledProblem::note_iteration(int iteration, double infeasibility, double optimality, double objective) {
   solution_.history.push_back({iteration, objective * problem_.objective_scale, infeasibility, optimality});
 }
 

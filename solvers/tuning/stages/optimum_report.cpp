@@ -87,7 +87,7 @@ class Report {
       if (optimum.outcome != Outcome::infeasible && scan_.worst > 0.0)
         optimum.certificate_gap = (scan_.worst - stages_.bound) / scan_.worst;
       judge_certificate(optimum);
-      optimum.certificate_gap = told(optimum.certificate_gap);
+      optimum.certificate_gap = clamped(optimum.certificate_gap);
     } else {
       optimum.objective = stages_.decisive.objective_again;
       if (optimum.outcome == Outcome::converged)  // there is no bound to compare it with
@@ -145,7 +145,7 @@ class Report {
   }
 
   // A bound above the worst peak by more than rounding is none.
-  static double told(double gap) { return gap < -kSlip ? kNone : gap < 0.0 ? 0.0 : gap; }
+  static double clamped(double gap) { return gap < -kSlip ? kNone : gap < 0.0 ? 0.0 : gap; }
 
   // A multiplier counts only above rounding: a peak's by its share; a bound's or limit's by the relative fall
   // of the objective when the bound moves by a hundredth of the range, the limit by its own size.

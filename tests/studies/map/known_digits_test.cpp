@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "studies/map/map_groups.hpp"
 #include "studies/map/map_plan.hpp"
-#include "studies/map/map_record.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace known_digits_test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/program/data_export.hpp"
 
 namespace measurements_test {

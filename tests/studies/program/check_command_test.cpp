@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "studies/map/map_sample.hpp"
-#include "studies/map/statistics_record.hpp"
+#include "studies/map/statistics_group.hpp"
 #include "studies/program/memory_use.hpp"
+#include "studies/reading/quantities/expression.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_sample.hpp"

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "studies/reading/element_keys.hpp"
-#include "studies/reading/study_keys.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/quantities/units.hpp"
 #include "studies/tuning/outcome_words.hpp"
 
 namespace explain_command_test {

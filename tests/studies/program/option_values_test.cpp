@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace option_values_test {
 namespace {

@@ -9,7 +9,9 @@
 
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/program/point_command.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
 #include "tests/study_path.hpp"
 
 namespace point_gradient_test {

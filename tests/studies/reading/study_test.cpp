@@ -1,4 +1,4 @@
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "studies/map/grid.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/study_path.hpp"
 
 namespace study_test {

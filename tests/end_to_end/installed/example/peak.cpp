@@ -4,6 +4,7 @@
 
 #include "solvers/response/periodic_response.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
 
 int main(int argc, char** argv) try {
   if (argc != 3) return 2;
