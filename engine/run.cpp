@@ -27,8 +27,9 @@ using namespace std::chrono_literals;
 
 void check(const RunOptions& options) {
   if (options.shard.count == 0 || options.shard.index >= options.shard.count) {
-    throw std::invalid_argument(fmt::format("shard {}/{}: the index must be below the count, from 0 on",
-                                            options.shard.index, options.shard.count));
+    throw std::invalid_argument(
+        fmt::format("shard {}/{}: the index must be below the count; it starts from 0", options.shard.index,
+                    options.shard.count));
   }
   if (options.threads < 0) {
     throw std::invalid_argument(fmt::format("threads = {}: must be >= 0", options.threads));

@@ -59,7 +59,7 @@ void check_read(const hdf5::Group& group, const std::vector<Column>& columns) {
   try {
     check(columns);
   } catch (const std::invalid_argument& broken) {
-    throw StoreError(group.where(), "is no group of a result", broken.what());
+    throw StoreError(group.where(), "is not a group of a result", broken.what());
   }
   check_row_starts(group, columns);
 }

@@ -39,7 +39,7 @@ void refuse_lost_entry(const Eigen::MatrixXd& matrix, const std::string& name, c
   const double smallest = matrix.diagonal().minCoeff(&least), largest = matrix.diagonal().maxCoeff(&most);
   if (!(smallest > 0.0) || std::sqrt(smallest) > kSmallestPivot * std::sqrt(largest)) return;
   std::ostringstream rule;
-  rule << "is lost in rounding beside " << largest << " at '"
+  rule << "is lost in rounding next to " << largest << " at '"
        << network.masses[static_cast<std::size_t>(most)] << "'";
   refuse("the " + name + " at '" + network.masses[static_cast<std::size_t>(least)] + "'", smallest,
          rule.str());
@@ -284,7 +284,7 @@ void Assembly::add_crank(const Excitation& excitation, const ExcitationValue& va
   if (!(std::isfinite(rod) && rod > radius)) refuse("the crank's rod", rod, "must be longer than the crank");
   const int even_orders = excitation.taylor_order == 1 ? 0 : excitation.even_orders;
   if (excitation.taylor_order == 0 && radius > 0.0 && crank_orders_needed(radius / rod) > even_orders) {
-    refuse("crank over rod", radius / rod, "is more than the orders kept serve");
+    refuse("crank over rod", radius / rod, "is more than the stored orders allow");
   }
   const auto node = static_cast<Eigen::Index>(excitation.node);
   const auto place = [&](int order) {

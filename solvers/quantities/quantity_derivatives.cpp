@@ -118,7 +118,7 @@ double structural_loss(const Measured& m, D d) {
 }
 
 Derivative of_mode(double by) {
-  return std::isnan(by) ? none("two modes have one frequency") : Derivative{by};
+  return std::isnan(by) ? none("two modes have the same frequency") : Derivative{by};
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ Derivative peak_phase(const Measured& m, D d, const Asked& asked) {
     if (at_peak != nullptr) return none("two extremes tie: it has a jump here");
     at_peak = &d.candidates[asked.trace][i];
   }
-  if (at_peak == nullptr) return none("the largest value is held, never reached");
+  if (at_peak == nullptr) return none("the largest value is approached but never reached");
   return {at_peak->angle};
 }
 

@@ -248,7 +248,7 @@ REFUSED = {
     "a scale of two dimensions": (flat_scale, "one dimension"),
     "an axis of size zero": (empty_axis, "axis"),
     "2^61 values": (endless, "has more values"),
-    "2^36 values and none stored": (sparse, "cannot be in"),
+    "2^36 values and none stored": (sparse, "do not fit in"),
     "a text for a number": (text_for_number, "must be numbers"),
     "flags out of range": (wrong_flags, "flag value"),
 }

@@ -194,7 +194,7 @@ TEST_CASE("where no design meets the limits the answer is the one that breaks th
     task.start = start;
     const Optimum optimum = tune(task, 0, [] { return false; }).at(0);
     CHECK(optimum.outcome == Outcome::infeasible);
-    CHECK_THAT(optimum.reason, Catch::Contains("the least near it"));
+    CHECK_THAT(optimum.reason, Catch::Contains("the least in its neighbourhood"));
     CHECK(std::isnan(optimum.certificate_gap));
     if (start == Start::map) CHECK(optimum.violation == Approx(1.0).epsilon(1e-6));
   }

@@ -78,7 +78,7 @@ class ActiveProblem final : public Problem {
   std::vector<CurveKind> node_curves_;
   std::vector<std::unique_ptr<BandCurve>> node_responses_;
   std::optional<Variance> variance_;
-  std::string why_undefined_ = "it is no finite number";
+  std::string why_undefined_ = "it is not a finite number";
   RowBlock response_rows_;
   std::vector<SlopeRows> slope_rows_;
 };
