@@ -42,7 +42,7 @@ std::string number(double value, double factor) {
 std::string remark_of(const Study& study, const Estimate& estimate) {
   if (std::isinf(estimate.high)) return "  the data do not determine it";
   for (const FixedEstimate& fixed : study.identify()->fixed) {
-    if (study.parameters.list[fixed.parameter].name == estimate.name) return "  as found before";
+    if (study.parameters.list[fixed.parameter].name == estimate.name) return "  as identified before";
   }
   return "";
 }
@@ -119,7 +119,7 @@ void print_identification_choice(const Study& study, std::ostream& out) {
     const std::size_t rows = record.columns.front().values.size();
     fmt::print(out, "{:<21} {} rows of {}{}{}\n", "record " + record.name, rows, fmt::join(roles, ", "),
                choice.method == IdentifyMethod::grey_box ? ", " + motion_word(record.motion) : "",
-               record.doubtful == 0 ? "" : fmt::format(", {} doubtful left out", record.doubtful));
+               record.doubtful == 0 ? "" : fmt::format(", {} doubtful rows left out", record.doubtful));
   }
   for (const IdentifiedParameter& fitted : choice.parameters) {
     const std::string& name = study.parameters.list[fitted.parameter].name;
@@ -133,7 +133,7 @@ void print_identification_choice(const Study& study, std::ostream& out) {
                fitted.each_record ? ", each record its own" : "");
   }
   for (const FixedEstimate& fixed : choice.fixed)
-    fmt::print(out, "{:<22}{:.8g}{} as found before\n", study.parameters.list[fixed.parameter].name,
+    fmt::print(out, "{:<22}{:.8g}{} as identified before\n", study.parameters.list[fixed.parameter].name,
                fixed.value / usual_unit(study, fixed.parameter).si_factor, behind(study, fixed.parameter));
 }
 
@@ -142,7 +142,7 @@ void print_identification(const Study& study, const IdentificationResult& result
   if (result.first) {
     fmt::print(out, "\nfirst, by Liang and Feeny from the turning points\n");
     if (!result.first->failure.empty()) {
-      fmt::print(out, "nothing: {}; the fit started from the study's values\n", result.first->failure);
+      fmt::print(out, "nothing: {}; the fit started from the values of the study\n", result.first->failure);
     }
     print_estimates(study, *result.first, out);
     fmt::print(out, "\nthen, by least squares over all samples ({} iterations)\n", result.fit.iterations);

@@ -24,8 +24,7 @@ void check_tiles(const MapPlan& plan) {
   if (plan.tiles <= most) return;
   throw StudyError(
       rules::too_large,
-      "{}: the map of {} points has {} tiles, of which at most {} can be kept track of; divide it into "
-      "several studies",
+      "{}: the map of {} points has {} tiles, but at most {} can be tracked; divide it into several studies",
       plan.study.source.name, plan.grid.points(), plan.tiles, most);
 }
 

@@ -171,7 +171,7 @@ std::vector<results::Variable> statistics_variables(const MapPlan& plan) {
     }
     variables.push_back({.name = of.name + "_samples",
                          .unit = "1",
-                         .long_name = fmt::format("samples with a value of {}", of.long_name),
+                         .long_name = fmt::format("number of samples with a value of {}", of.long_name),
                          .type = results::Type::int32});
   }
   return variables;

@@ -41,7 +41,8 @@ std::size_t parameter_along(const Study& study, const std::string& name) {
   }
   if (!study.parameters.list[*found].is_number()) {
     throw StudyError(rules::computed_parameter,
-                     "--along {}: it is computed from others; a branch goes along a number", name);
+                     "--along {}: it is computed from other parameters; a branch needs one that is a number",
+                     name);
   }
   return *found;
 }
@@ -52,7 +53,7 @@ bool is_result(const std::filesystem::path& output) {
 
 void check_options(const Study& study, const BranchCommandOptions& options) {
   if (study.kind() != StudyKind::sweep) {
-    throw StudyError(rules::other_kind, "{}: {} has no branches; they are those of a sweep's responses",
+    throw StudyError(rules::other_kind, "{}: {} has no branches; only the responses of a sweep have them",
                      study.source.name, kind_noun(study.kind()));
   }
   refuse_smooth_laws(study, "a branch");
@@ -61,7 +62,7 @@ void check_options(const Study& study, const BranchCommandOptions& options) {
                      "--output \"-\": the special points go to standard output; name a file");
   }
   if (options.fresh && !(options.output && is_result(*options.output)))
-    throw StudyError(rules::wrong_option, "--fresh: belongs to a result, --output FILE.h5");
+    throw StudyError(rules::wrong_option, "--fresh: it needs a result, --output FILE.h5");
 }
 
 // An end of the range [SI]: as the option says, else that of the parameter's axis.
@@ -74,7 +75,8 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
     const auto [least, most] = std::ranges::minmax_element(axis.si_values);
     return is_upper ? *most : *least;
   }
-  throw StudyError(rules::wrong_option, "--along {}: it is no axis of the study, so give {}", name, option);
+  throw StudyError(rules::wrong_option, "--along {}: it is not an axis of the study, so give {}", name,
+                   option);
 }
 
 // Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.

@@ -97,7 +97,7 @@ Examples:
 
 inline constexpr const char* explain_examples = R"(
 Examples:
-  frahm explain stiffness                     a key of a study, and where it stands
+  frahm explain stiffness                     a key of a study, and its sections
   frahm explain spring                        a type of element: its force, its values, units and ranges
   frahm explain main_peak                     a quantity, for any mass or element
   frahm explain kN/mm                         a unit: what it measures, and its value in SI

@@ -80,7 +80,7 @@ const Meaning flag_words[] = {
      "and `violation` says by how much"},
     {"unbounded", "outcome of a tuning: the response has no bound at some frequency of the band"},
     {"failed", "outcome of a tuning: the response could not be computed; the reason is given with it"},
-    {"stopped", "outcome of a tuning: stopped by a signal or the time budget; the same command goes on"},
+    {"stopped", "outcome of a tuning: stopped by a signal or the time budget; the same command resumes"},
     {"no_friction", "regime of a friction element: it has no friction force here, F = 0"},
     {"non_stop", "regime of a friction element: it slides all the time, turning at single instants"},
     {"one_stop", "regime of a friction element: it stops once or twice in a period of the excitation"},

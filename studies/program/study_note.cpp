@@ -101,11 +101,12 @@ void refuse_foreign_file(const std::filesystem::path& path, const std::filesyste
   refuse_link(path);
   const auto file = engine::File::open_if_present(path);
   if (!file || is_note(path) || file->holds_only_zeros() || has_log_of(output, plan)) return;
-  throw engine::IoError(path, "is there already and is no note of frahm; remove or rename it");
+  throw engine::IoError(path, "exists already and is not a note of frahm; remove or rename it");
 }
 
-// Other shards may be writing the same note at this moment: each renames its complete file. Where two machines
-// share no locks, each may take the other's part for one left by a killed process; then it is written again.
+// Other shards may be writing the same note at this moment: each renames its complete file. Where two
+// machines share no locks, each may take the other's part for one left by a killed process; then it is
+// written again.
 void write_whole(const std::filesystem::path& path, const std::string& text) {
   constexpr int most_attempts = 20;
   for (int attempt = 1;; ++attempt) {
@@ -188,9 +189,9 @@ std::optional<EarlierResult> source_of_logs(const std::filesystem::path& output,
 
 void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engine::LogHeader& header) {
   if (plan.log_header() == header) return;
-  throw engine::IoError(noted.note,
-                        "the study kept here no longer gives what the logs were made from: a table it reads, "
-                        "or this program, has changed");
+  throw engine::IoError(
+      noted.note,
+      "the study kept here no longer matches the logs: a table that it reads, or this program, has changed");
 }
 
 void remove_study_note(const std::filesystem::path& output, const StudyPlan& plan) {

@@ -40,7 +40,7 @@ class AssignmentReading {
     }
     if (!study_.parameters.list[*parameter].is_number()) {
       fail(rules::computed_parameter,
-           fmt::format("\"{}\" is computed from other parameters; set those", name));
+           fmt::format("\"{}\" is computed from other parameters; set those instead", name));
     }
     return *parameter;
   }

@@ -207,7 +207,7 @@ double crank_ratio(const Study& study, std::size_t excitation, std::span<const d
   if (ratio <= mechanics::kLargestCrankRatio) return ratio;
   fail(rules::out_of_range, study, {&crank, nullptr, reads_of_crank(study, excitation)}, parameters,
        fmt::format("is {:.6g} times the rod", ratio),
-       fmt::format("must be at most {} times the rod, or its Fourier series is too long",
+       fmt::format("must be at most {} times the rod; otherwise its Fourier series is too long",
                    mechanics::kLargestCrankRatio));
 }
 

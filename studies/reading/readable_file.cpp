@@ -36,7 +36,7 @@ std::ifstream open_file(const std::filesystem::path& path, const std::string& na
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (kind == FileKind::regular && std::filesystem::exists(status) &&
       !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status))
-    refuse(name, "it is no regular file but a pipe or a device");
+    refuse(name, "it is not a regular file but a pipe or a device");
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(name, std::strerror(errno));
   if (std::filesystem::is_directory(status)) refuse(name, "it is a directory");

@@ -331,7 +331,7 @@ std::vector<std::string> rounding_changes(const TomlValue& kept, const TomlValue
 }
 
 std::string change_of_unit(const std::string& name, const std::string& before, const std::string& after) {
-  return fmt::format("{}: {}, now {}: the same but for rounding", name, before, after);
+  return fmt::format("{}: {}, now {}: the same apart from rounding", name, before, after);
 }
 
 }  // namespace frahm::studies

@@ -94,7 +94,8 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
   if (about.tune.has_schedule())
     fmt::print(out, "  the best constant     {}\n", eight_digits(optimum.constant_objective, unit));
   if (!std::isnan(optimum.path_bound))
-    fmt::print(out, "  no schedule below     {} with these constants, as far as a grid shows\n",
+    fmt::print(out,
+               "  lower bound           {} for every schedule with these constants, as far as a grid shows\n",
                eight_digits(optimum.path_bound, unit));
   if (!std::isnan(optimum.certificate_gap))
     fmt::print(out, "{:<24}{:.3g} (relative){}\n", "certificate gap", optimum.certificate_gap,
@@ -108,9 +109,10 @@ void print_search(const TuningAbout& about, std::ostream& out) {
   const std::string limits_of_it = not_proved(about.study);
   if (limits_of_it.empty()) return;
   const tuning::SearchedPoints& searched = about.result.assessment.searched;
-  fmt::print(out,
-             "\n{:<24}of {} points of the band at the optimum {} have several stable responses, {} none\n",
-             "responses", searched.points, searched.several, searched.not_periodic);
+  fmt::print(
+      out,
+      "\n{:<24}of {} points of the band at the optimum, {} have several stable responses, {} have none\n",
+      "responses", searched.points, searched.several, searched.not_periodic);
   fmt::print(out, "{:<24}{}\n", "not proved", limits_of_it);
 }
 

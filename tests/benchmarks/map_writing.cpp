@@ -134,9 +134,9 @@ void assemble(const studies::MapPlan& plan, const std::filesystem::path& output,
   const double megabytes = 1e-6 * bytes_of_point(plan) * static_cast<double>(plan.grid.points());
   const double millions = 1e-6 * static_cast<double>(plan.grid.points());
   fmt::print(
-      "  assembly, {} threads: {:.0f} MB to {:.0f} MB in {:.2f} s CPU, {:.2f} s wall: {:.0f} MB/s a core by "
-      "CPU, {:.0f} MB/s by the wall; "
-      "{:.3f} s CPU a million points; peak memory so far {:.0f} MB\n",
+      "  assembly, {} threads: {:.0f} MB to {:.0f} MB in {:.2f} s CPU, {:.2f} s wall: {:.0f} MB/s per core "
+      "by CPU, {:.0f} MB/s by the wall; "
+      "{:.3f} s CPU per million points; peak memory so far {:.0f} MB\n",
       threads, megabytes, 1e-6 * static_cast<double>(std::filesystem::file_size(made)), cpu, wall,
       megabytes / cpu, megabytes / wall, cpu / millions, peak_megabytes());
   std::filesystem::remove(made);
