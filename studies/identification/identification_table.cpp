@@ -15,10 +15,10 @@ namespace {
 
 using identification::Estimate, identification::FittedRecord, identification::Identification;
 
-constexpr std::size_t most_correlations = 12;  // columns that still fit beside one another
+constexpr std::size_t most_correlations = 12;  // columns that still fit next to one another
 constexpr std::size_t most_rows = 30;
 
-// An estimate in the study's unit of the parameter of the same name, else SI.
+// An estimate in the study's unit of the parameter of the same name, otherwise SI.
 struct Spoken {
   double factor = 1.0;  // SI value = factor x value
   std::string unit;
@@ -96,7 +96,7 @@ void print_rows(const Study& study, const Identification& found, std::ostream& o
   fmt::print(out, "\n{}", rows > most_rows ? fmt::format("and {} more\n", rows - most_rows) : "");
 }
 
-// " N s/m": the unit of a parameter behind its value.
+// " N s/m": the unit of a parameter after its value.
 std::string behind(const Study& study, std::size_t parameter) {
   const std::string unit = spoken_value(study, parameter, 1.0).unit;
   return unit.empty() ? "" : " " + unit;

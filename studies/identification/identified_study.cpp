@@ -207,7 +207,7 @@ std::string study_of_one_mass(const Stored& stored) {
   const double x_f = stored.value("friction_displacement"),
                F = std::max(0.0, std::isnan(x_f) ? 0.0 : k * x_f);
   const double P =
-      F > 0.0 ? 4.0 * F : k * 1e-3;  // well above friction; else a millimetre of static displacement
+      F > 0.0 ? 4.0 * F : k * 1e-3;  // well above friction; otherwise a millimetre of static displacement
   return fmt::format(R"([study]
 schema = 1
 kind = "sweep"

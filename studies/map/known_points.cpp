@@ -32,7 +32,7 @@ void refuse_another_physics(const MapPlan& plan, const results::MapReader& earli
                               "none of its points can be reused; leave out --from to compute them all");
 }
 
-// Samples of a file that is no longer beside the result leave nothing to compare with.
+// Samples of a file that is no longer next to the result leave nothing to compare with.
 void refuse_other_axes_than_stored(const results::MapReader& earlier, const std::filesystem::path& file,
                                    const std::string& advice) {
   std::optional<StoredStudy> stored;

@@ -18,7 +18,7 @@
 namespace frahm::studies {
 namespace {
 
-// Who computes or assembles a map keeps track of each tile, in some 24 bytes.
+// Who computes or assembles a map keeps track of each tile, in about 24 bytes.
 void check_tiles(const MapPlan& plan) {
   constexpr std::uint64_t most = std::uint64_t{1} << 24;
   if (plan.tiles <= most) return;

@@ -70,7 +70,7 @@ std::map<std::string, Taken> names_of_coordinates(const Study& study) {
   return taken;
 }
 
-// Groups of the file and their contents beside the axes' own parameters.
+// Groups of the file and their contents next to the axes' own parameters.
 std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& study) {
   std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"},
                                                          {"modes", "a group of the file"}};

@@ -141,7 +141,7 @@ ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) 
   }
 }
 
-// Of what takes every mass: [m], or [rad] where all rotate.
+// For what takes every mass: [m], or [rad] where all rotate.
 std::string_view unit_of_all(const Study& study) {
   std::size_t i = 0;
   while (mechanics::rotates(study.network, i)) ++i;

@@ -65,7 +65,7 @@ void check_options(const Study& study, const BranchCommandOptions& options) {
     throw StudyError(rules::wrong_option, "--fresh: it needs a result, --output FILE.h5");
 }
 
-// An end of the range [SI]: as the option says, else that of the parameter's axis.
+// An end of the range [SI]: as the option says, otherwise that of the parameter's axis.
 double end_of_range(const Study& study, std::size_t parameter, const char* option,
                     const std::optional<std::string>& given, bool is_upper) {
   const std::string& name = study.parameters.list[parameter].name;
@@ -79,7 +79,8 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
                    option);
 }
 
-// Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.
+// Where the first response is searched [SI]: where --at puts the parameter, otherwise at the start of the
+// range.
 double start_of(const Study& study, std::size_t parameter, const BranchCommandOptions& options, double low,
                 double high) {
   double start = low;
@@ -93,7 +94,7 @@ double start_of(const Study& study, std::size_t parameter, const BranchCommandOp
                    spoken_text(study, parameter, low), spoken_text(study, parameter, high));
 }
 
-// A line that tells how far the branch is, on a terminal.
+// A line that says how far the branch is, on a terminal.
 class Counter {
  public:
   Counter(const Study& study, std::size_t parameter, engine::ProgressStyle style)
@@ -149,7 +150,7 @@ void check_place(const BranchCommandOptions& options) {
     check_output_is_not_input(*options.output, options.study);
 }
 
-// Where a branch begins: the axes beside it, what --at gives and the parameter followed, by their names.
+// Where a branch begins: the axes next to it, what --at gives and the parameter followed, by their names.
 // parameters: SI.
 std::string beginning_of(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::span<const double> parameters) {
@@ -189,11 +190,11 @@ std::string exact_course(const Study& study, std::size_t along, std::span<const 
                      wanted.multiple, begin);
 }
 
-// Of the same physics as the map of its study, for other points.  parameters: SI, of the branch.
+// For the same physics as the map of its study, for other points.  parameters: SI, of the branch.
 StudyPlan plan_of_branch(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::vector<double> parameters, const periodic::BranchWanted& wanted) {
   const std::vector<periodic::Quantity> recorded = output_quantities(study);
-  const auto variables = output_variables(study, recorded);  // of a comparison too, behind these
+  const auto variables = output_variables(study, recorded);  // of a comparison too, after these
   std::vector<std::string> names;
   for (std::size_t q = 0; q < recorded.size(); ++q) names.push_back(variables[q].name);
   parameters[along] = wanted.start;

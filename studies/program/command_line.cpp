@@ -390,7 +390,7 @@ CommandOption told(const CLI::Option& option) {
   if (own.is_positional) own.names.push_back(option.get_name(true));
   for (const std::string& name : option.get_snames()) own.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) own.names.push_back("--" + name);
-  // Behind a colon it has the checks of the value; a flag has no type.
+  // After a colon it has the checks of the value; a flag has no type.
   const std::string type = option.get_type_name();
   if (option.get_items_expected_max() > 0) own.value = type.substr(0, type.find(':'));
   return own;
@@ -404,7 +404,7 @@ Command told(const CLI::App& app, const std::string& name) {
   return own;
 }
 
-// The one of its commands that was given, else the program itself.
+// The one of its commands that was given, otherwise the program itself.
 const Command& given_command(const CLI::App& program, const Command& tree) {
   const auto given = program.get_subcommands();
   if (given.empty()) return tree;
@@ -457,7 +457,7 @@ std::string asked_help(const CLI::App& program, const Command& tree) {
   return is_of_kind ? help_for(tree, unknown.front()) : help_text(command);
 }
 
-// What is wrong with the first argument that could not be told in a message, kept in a note or stored in a
+// What is wrong with the first argument that could not be printed in a message, kept in a note or stored in a
 // result, or that is empty, as no value of ours is.
 std::optional<std::string> unfit_argument(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {

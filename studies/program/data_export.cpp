@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view data_mark = "# simulated by frahm export";
 
-// A number > 0 and the unit behind it.
+// A number > 0 and the unit after it.
 struct Amount {
   double value = 0.0;
   std::string unit;

@@ -129,7 +129,7 @@ std::string told(const periodic::QuantityRow& row) {
   return text;
 }
 
-// Of the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
+// For the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
 std::vector<std::string> quantities_called(const std::string& word) {
   std::size_t longest = 0;
   for (const auto& row : periodic::quantity_table()) {

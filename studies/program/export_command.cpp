@@ -96,7 +96,8 @@ void write_map(const results::MapReader& map, std::ostream& out) {
   }
 }
 
-// Of a ragged group, what a row says beside each of its samples: one table of samples. Others are unchanged.
+// For a ragged group, what a row says next to each of its samples: one table of samples. Others are
+// unchanged.
 std::vector<results::Column> beside_samples(std::vector<results::Column> columns) {
   const auto is_start = [](const results::Column& each) { return each.variable.name == "row_start"; };
   const auto found = std::ranges::find_if(columns, is_start);
@@ -164,7 +165,7 @@ void write_group(const results::MapReader& map, const std::string& group, std::o
   write_columns(beside_samples(std::move(columns)), out);
 }
 
-// Writes the requested group, else the map, or in a file without a map the motion, optimum or branch.
+// Writes the requested group, otherwise the map, or in a file without a map the motion, optimum or branch.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
   if (!asked.empty()) return write_group(map, asked, out);
   for (const char* group : {"decay", "transient", optimum_group, identification_group, "branches"}) {
@@ -196,7 +197,7 @@ void check_name_of_study(const char* option, const std::filesystem::path& place)
                      place.string());
 }
 
-// A study at the optimum of a tuning, with its tables beside it. Whoever has changed one of them since keeps
+// A study at the optimum of a tuning, with its tables next to it. Whoever has changed one of them since keeps
 // them all; some of them alone are of an export that failed.
 int write_at_optimum(const ExportOptions& options, std::ostream& out) {
   const bool runs_up = !options.run_up.empty();

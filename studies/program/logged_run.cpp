@@ -127,7 +127,7 @@ std::optional<results::MapReader> begin(const StudyPlan& plan, const engine::Run
   return finished;
 }
 
-// Computes the missing tiles of a plan's job, with the note of its study beside the logs.
+// Computes the missing tiles of a plan's job, with the note of its study next to the logs.
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
   const bool is_new = write_study_note(run.output, plan);
   try {
@@ -167,7 +167,7 @@ int tell_stopped(const engine::Summary& summary, const std::filesystem::path& ou
   return exit_code::stopped;
 }
 
-// seconds: that the making of the file had; it begins anew.
+// seconds: that the making of the file had; it begins again.
 int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output, double seconds) {
   fmt::print(std::cerr,
              "{}: everything is computed and kept next to {}; the same command makes the file, which takes "

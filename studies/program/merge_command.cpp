@@ -36,7 +36,7 @@ engine::LogHeader study_of(const std::vector<std::filesystem::path>& logs,
   throw engine::IoError(output, "there is no shard log to merge");
 }
 
-// The files beside which the note of the study may lie: the output, and those the logs were written for
+// The files next to which the note of the study may lie: the output, and those the logs were written for
 // (<output>.<writer>.frahm-log).
 std::vector<std::filesystem::path> places_of_note(const MergeOptions& options,
                                                   const std::vector<std::filesystem::path>& logs) {

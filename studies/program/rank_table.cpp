@@ -36,7 +36,7 @@ void print_limit(const RankCosts& costs, int ranks, int threads, std::ostream& o
              100.0 * enough, limit == ranks ? "up to" : "beyond", limit);
 }
 
-// Of a tile [s].
+// For a tile [s].
 double mean_cost(const MapSample& sample) {
   double seconds = 0.0;
   for (const TileCost& each : sample.costs) seconds += each.seconds;

@@ -278,7 +278,7 @@ std::vector<std::string> record_words_called(std::string_view name) {
   for (const RecordWord& each : all_words) {
     if (is_called(each, name)) longest = std::max(longest, std::string_view(each.name).size());
   }
-  // The name itself too, where a longer pattern ends in it: `nrmse` beside `*_nrmse`.
+  // The name itself too, where a longer pattern ends in it: `nrmse` next to `*_nrmse`.
   std::vector<std::string> found;
   for (const RecordWord& each : all_words) {
     const bool is_longest = std::string_view(each.name).size() == longest;

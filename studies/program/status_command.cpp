@@ -83,7 +83,7 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   }
 }
 
-// The logs beside a file, by their study: there are several studies only if a run was refused or a log put
+// The logs next to a file, by their study: there are several studies only if a run was refused or a log put
 // there by hand.
 struct FoundLogs {
   std::vector<std::pair<engine::LogHeader, std::vector<std::filesystem::path>>> studies;

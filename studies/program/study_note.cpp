@@ -120,7 +120,7 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   }
 }
 
-// The study of a note. If the note was moved with its tables and logs, the tables are beside the note and no
+// The study of a note. If the note was moved with its tables and logs, the tables are next to the note and no
 // longer at the study's old path.
 Study study_of_note(const StudyNote& note, const std::filesystem::path& path) {
   try {
@@ -195,7 +195,7 @@ void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engi
 }
 
 void remove_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
-  std::error_code ignored;  // a note left behind is harmless
+  std::error_code ignored;  // a note that is left is harmless
   std::filesystem::remove(note_path(output, plan.log_header().fingerprint), ignored);
 }
 

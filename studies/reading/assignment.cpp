@@ -45,7 +45,7 @@ class AssignmentReading {
     return *parameter;
   }
 
-  // value: a number, with or without a unit behind it. Result: SI.
+  // value: a number, with or without a unit after it. Result: SI.
   double value(const Parameter& parameter, std::size_t index, std::string_view value) const {
     double number = 0.0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);

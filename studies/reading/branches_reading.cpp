@@ -10,7 +10,7 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_elements = 125;  // values of a flag, beside "not_computed" and "none"
+constexpr std::size_t most_elements = 125;  // values of a flag, next to "not_computed" and "none"
 
 const std::string& name_of(const Study& study, const ParameterAxis& axis) {
   return study.parameters.list[axis.parameter].name;

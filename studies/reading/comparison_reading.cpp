@@ -14,7 +14,7 @@ namespace {
 using mechanics::ExcitationKind;
 using mechanics::FrictionLaw;
 
-// Of which there is no exact law to compare with.
+// There is no exact law to compare these with.
 void refuse_other_smooth_laws(const TomlSection& section, const Study& study) {
   for (const mechanics::Element& each : study.network.elements) {
     if (!each.has_cubic && each.law != FrictionLaw::stribeck) continue;

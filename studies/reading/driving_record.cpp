@@ -14,7 +14,7 @@ namespace {
 using transient::Record, transient::RecordOf;
 
 // A window of displacements begins and ends at samples, which may be written with fewer digits than these.
-constexpr double at_sample = 1e-6;  // of the interval beside it
+constexpr double at_sample = 1e-6;  // of the interval next to it
 
 // The column of a key, by number or by name.
 WantedColumn wanted_column(const TomlSection& section, const std::string& key, const std::string& role,

@@ -19,7 +19,7 @@ using mechanics::Node;
 using mechanics::NodeKind;
 using mechanics::ValueKey;
 
-// The type that is written, and that it has the keys beside it.
+// The type that is written, and that it has the keys next to it.
 std::string read_type(const TomlSection& section) {
   const std::string type = section.text("type");
   const std::vector<std::string> known = element_types();

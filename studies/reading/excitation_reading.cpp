@@ -19,7 +19,8 @@ using mechanics::ExcitationKind;
 using mechanics::Node;
 using mechanics::NodeKind;
 
-// Each order has two oscillators in the flow: a hundred take some 15 ms an orbit, 200 some 80 ms and 200 MB.
+// Each order has two oscillators in the flow: a hundred take about 15 ms an orbit, 200 about 80 ms and 200
+// MB.
 constexpr std::size_t most_orders = 200;
 
 const std::string force_path = "excitation.force";

@@ -27,7 +27,7 @@ double read_positive(const StudyContext& context, const TomlSection& section, co
   return value;
 }
 
-// The time from which on a record fades, behind its rise and before its end.
+// The time from which on a record fades, after its rise and before its end.
 void read_level(const StudyContext& context, const TomlSection& section, double duration,
                 Envelope& envelope) {
   envelope.rise = read_positive(context, section, "rise", Quantity::time);

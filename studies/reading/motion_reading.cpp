@@ -117,7 +117,7 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
 
 }  // namespace
 
-// The energies of a motion are recorded beside those of its elements, <element>_energy.
+// The energies of a motion are recorded next to those of its elements, <element>_energy.
 void refuse_names_of_energies(const StudyContext& context, const Study& study) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {

@@ -42,7 +42,7 @@ std::vector<std::string> node_names(const mechanics::Network& network);
 // absent.
 StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
                       Quantity quantity, Range range, std::optional<double> otherwise = std::nullopt);
-// The same of a key whose range is in the table of keys.
+// The same for a key whose range is in the table of keys.
 StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
                       Quantity quantity, std::optional<double> otherwise = std::nullopt);
 std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
@@ -51,7 +51,7 @@ Range range_in(const TomlSection& section, std::string_view key);
 
 // The law of a coulomb element; exact of every other. Refuses keys of other laws.
 mechanics::FrictionLaw read_law(const TomlSection& section, const mechanics::ElementKind& kind);
-// Refuses a contact beside others of which some are followed exactly and some are smooth.
+// Refuses a contact next to others of which some are followed exactly and some are smooth.
 void check_one_law(const NetworkReading& reading, const TomlSection& section,
                    const mechanics::ElementKind& kind, mechanics::FrictionLaw law);
 
@@ -75,7 +75,7 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
 // to the element.
 StudyCharacteristic read_characteristic(NetworkReading& reading, const TomlSection& section, bool rotational,
                                         mechanics::Element& element);
-// The same of what stands at one place, by its name in messages: [damping]: rayleigh: a.
+// The same for what stands at one place, by its name in messages: [damping]: rayleigh: a.
 StudyValue read_value_at(NetworkReading& reading, const std::string& where, const TomlValue& value,
                          Quantity quantity, Range range);
 

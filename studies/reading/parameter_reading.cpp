@@ -99,7 +99,7 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   return table;
 }
 
-// Of a text such as "3 Hz", which is no expression: how a number with a unit is written.
+// For a text such as "3 Hz", which is no expression: how a number with a unit is written.
 std::string hint_of_unit(const StudyContext& context, const std::string& text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -18,8 +18,8 @@ struct Profile {
   std::optional<Position> position = std::nullopt;  // of the study's own choice
 };
 
-// The profile of [report], else that of a system of more than eight masses: all of them, as the study lists
-// them. Nothing for other systems.  report: null if the study has no such table. Throws StudyError.
+// The profile of [report], otherwise that of a system of more than eight masses: all of them, as the study
+// lists them. Nothing for other systems.  report: null if the study has no such table. Throws StudyError.
 std::optional<Profile> read_profile(const TomlSection* report, const mechanics::Network& network);
 
 }  // namespace frahm::studies

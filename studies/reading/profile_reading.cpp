@@ -10,7 +10,7 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t few_masses = 8;  // so many can be told apart in tables and lists
+constexpr std::size_t few_masses = 8;  // so many can be distinguished in tables and lists
 
 std::vector<std::size_t> all_masses(const mechanics::Network& network) {
   std::vector<std::size_t> masses(network.masses.size());

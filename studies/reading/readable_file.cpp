@@ -20,7 +20,7 @@ namespace {
   throw StudyError(rules::unreadable_file, "{}: cannot be read: {}", name, why);
 }
 
-// Of all threads.
+// For all threads.
 struct FilesRead {
   std::mutex turn;
   std::set<std::filesystem::path> paths;
@@ -45,7 +45,7 @@ std::ifstream open_file(const std::filesystem::path& path, const std::string& na
   return file;
 }
 
-// Of a file that may have no end what a study may have (1 MiB), and a little more.
+// From a file that may have no end: what a study may have (1 MiB), and a little more.
 std::string begin_of(std::ifstream& file) {
   constexpr std::size_t most = std::size_t{2} << 20;  // bytes
   std::string text(most, '\0');

@@ -77,7 +77,7 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
   }
 }
 
-// Of the displacements of supports that were measured and drive the motion.
+// For the displacements of supports that were measured and drive the motion.
 void read_interpolation(const Study& study, const TomlSection& section, RecordChoice& record) {
   bool is_used = false;
   record.interpolation = section.choice_as<transient::Interpolation>("interpolation");
@@ -102,7 +102,7 @@ void read_interpolation(const Study& study, const TomlSection& section, RecordCh
                  "has no effect: no displacement of a support was measured, which would drive the motion");
 }
 
-// Of a grey box: the cause of the motion, and the columns it needs.
+// For a grey box: the cause of the motion, and the columns it needs.
 void read_motion_kind(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   const Study& study = reading.study;
   const auto& columns = record.columns;

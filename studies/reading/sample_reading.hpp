@@ -22,7 +22,7 @@ struct SampleReading {
 // A new axis of a parameter, without values. Valid until the next one.
 ParameterAxis& add_axis(SampleReading& reading, std::size_t parameter);
 
-// What is told of an axis, with its unit.
+// What is reported of an axis, with its unit.
 std::string with_unit_of(const ParameterAxis& axis, const std::string& told);
 
 // Estimates of an identification that scatter together, in SI.

@@ -67,7 +67,7 @@ void check_compared_show(const StudyContext& context, const TomlValue& root, con
 // [tune], [[design]], [[constraint]], [[scenario]] and [[column]] into the study's choice, once units are
 // converted.
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study);
-// The same of a network under records.  folder: of their files.
+// The same for a network under records.  folder: of their files.
 void read_tuning_over_records(const StudyContext& context, const TomlValue& root,
                               const std::filesystem::path& folder, DataFiles data, Study& study);
 
@@ -103,11 +103,11 @@ void set_directions(Study& study);
 // Gives each bend of a table its side of the origin, once units are converted.
 void set_characteristics(Study& study);
 
-// What is wrong with the values of an element beside each other, at one point (SI values of all parameters,
+// What is wrong with the values of an element next to each other, at one point (SI values of all parameters,
 // completed): of a table that does not rise or pass through the origin, of a static force below the force.
 struct ElementProblem {
   Rule rule;
-  const StudyValue* value = nullptr;  // at which it is told
+  const StudyValue* value = nullptr;  // at which it is reported
   std::string found, must;
 };
 std::optional<ElementProblem> element_problem(const Study& study, std::size_t element,
@@ -117,7 +117,7 @@ std::optional<ElementProblem> element_problem(const Study& study, std::size_t el
 void refuse_bends(const Study& study, const std::string& why);
 // Refuses smooth laws in a study whose solver follows the exact ones.
 void refuse_smooth_laws(const Study& study, std::string_view what_is_exact);
-// Refuses smooth laws beside contacts that are followed exactly, and beside elements that bend.
+// Refuses smooth laws together with contacts that are followed exactly, or with elements that bend.
 void refuse_mixed_laws(const Study& study);
 // Refuses elements with which several responses may exist; where they depend on numbers, element_problem()
 // does.
@@ -159,7 +159,7 @@ void set_crank_orders(Study& study);
 // Adds the orders needed at one more point (SI values of all parameters, completed).
 void add_crank_orders_at(Study& study, std::span<const double> parameters);
 
-// A number in the unit given beside it, as { value, unit } or as a bare number (no unit then).
+// A number in the unit given next to it, as { value, unit } or as a bare number (no unit then).
 struct NumberWithUnit {
   double value = 0.0;
   std::optional<Unit> unit;  // none in a dimensionless study

@@ -5,7 +5,7 @@
 #include "solvers/mechanics/smooth_laws.hpp"
 #include "studies/reading/study_reading.hpp"
 
-// Elements that some kinds of study do not follow, or not beside others.
+// Elements that some kinds of study do not follow, or not together with others.
 namespace frahm::studies {
 namespace {
 

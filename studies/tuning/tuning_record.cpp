@@ -115,7 +115,7 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
   columns.add_number(name + "_constant", unit, name + " of the best constant design", constant / factor);
 }
 
-// Of a tuning over records: which record each peak is of, and what it was before.
+// For a tuning over records: which record each peak is of, and what it was before.
 void add_records_of_peaks(const TuningAbout& about, GroupColumns& columns) {
   std::vector<double> records, before;
   for (std::size_t i = 0; i < about.optimum.peaks.size(); ++i) {
@@ -241,7 +241,7 @@ void add_starts(const TuningAbout& about, GroupColumns& columns) {
   add_designs(about, "start_", "found from a start", "start", optima, columns);
 }
 
-// Of a tuning that began at a map: what of the box it saw, and what its low cells led to.
+// For a tuning that began at a map: what of the box it saw, and what its low cells led to.
 void add_map(const TuningAbout& about, GroupColumns& columns) {
   const tuning::DesignsSeen& seen = about.optimum.seen;
   if (seen.cells == 0) return;

@@ -116,7 +116,7 @@ void print_search(const TuningAbout& about, std::ostream& out) {
   fmt::print(out, "{:<24}{}\n", "not proved", limits_of_it);
 }
 
-// Of a tuning over records: every motion's peak, before and after.
+// For a tuning over records: every motion's peak, before and after.
 void print_motions(const TuningAbout& about, std::ostream& out) {
   const auto names = scenario_names(about.study);
   const bool sampled = !about.tune.drawn.empty();  // of samples those that hold the design are enough
