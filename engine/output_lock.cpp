@@ -33,7 +33,7 @@ OutputLock::OutputLock(const std::filesystem::path& output) : file_(open_locked(
 }
 
 OutputLock::~OutputLock() {
-  std::error_code ignored;  // a file left behind is harmless: it is the lock that counts
+  std::error_code ignored;  // a file that is left is harmless: it is the lock that counts
   std::filesystem::remove(file_.path(), ignored);
 }
 

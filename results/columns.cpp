@@ -125,7 +125,7 @@ void write_columns(hdf5::Group& group, const std::vector<Column>& columns) {
 std::vector<Column> read_columns(const hdf5::Group& group) {
   std::vector<Column> columns;
   const hdf5::Group::Scales scales = group.scales();
-  bool is_map = false;  // of several dimensions: then the values of each are told row after row
+  bool is_map = false;  // of several dimensions: then the values of each are reported row after row
   for (const std::string& name : group.dataset_names()) {
     const hdf5::Dataset dataset = group.dataset(name);
     if (is_index(dataset)) continue;

@@ -139,7 +139,7 @@ void PartFile::give_up(const char* what, int error) const {
 void remove_dead_parts(const std::filesystem::path& path) {
   const std::filesystem::path folder = folder_of(path);
   const std::string output = path.filename().string();
-  std::error_code error;  // a folder that cannot be listed: the part cannot be created either, which is told
+  std::error_code error;  // of a folder that cannot be listed: creating the part fails too, and says so
   std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     if (is_named_as_part(entry->path().filename().string(), output))

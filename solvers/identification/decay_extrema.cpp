@@ -113,7 +113,7 @@ struct Turns {
   double rss = 0.0, degrees_of_freedom = 0.0;  // [m^2]
 
   double time(std::size_t k) const { return quarters[k].at + quarters[k].radian * fits[k].phase; }
-  // The mean half period; delta of phi_3 beside phi_2, a_3 = -2 delta' a_2, by least squares over all turns.
+  // The mean half period; delta of phi_3 next to phi_2, a_3 = -2 delta' a_2, by least squares over all turns.
   Shape shape() const {
     double product = 0.0, square = 0.0;
     for (const TurningPoint& fit : fits) {

@@ -96,7 +96,7 @@ std::string unless_underdamped(double slope, ResponseTo shaken_by) {
          ": it must be below 1";
 }
 
-// "" if the line rises by more than rounding, else a sentence.
+// "" if the line rises by more than rounding, otherwise a sentence.
 std::string unless_rising(const Eigen::VectorXd& X, const Eigen::VectorXd& Y, double slope,
                           ResponseTo shaken_by) {
   constexpr double kRounding = 1e-9;

@@ -247,7 +247,7 @@ Identification grey_box(const GreyBoxTask& task) {
   result.records = misfit.fitted(fit.p);
   note_bounds(fit, misfit.unknowns(), is_exact(result.records), result);
   const bool held = std::ranges::any_of(fit.at_bound, [](int side) { return side != 0; });
-  if (!held) span_rivals(minima.rivals(), result);  // beside what a bound holds is no noise
+  if (!held) span_rivals(minima.rivals(), result);  // the neighbourhood of a bound is not noise
   note_quality(task, held, result);
   return result;
 }

@@ -33,7 +33,7 @@ void check_value(const ValueKey& key, const Element& element, double value) {
 // A pivot of Cholesky's decomposition below this part of the largest is only rounding away from zero.
 constexpr double kSmallestPivot = 1e-13;
 
-// Tells a node whose own entry is too small beside that of another.
+// Refuses a node whose own entry is too small next to that of another.
 void refuse_lost_entry(const Eigen::MatrixXd& matrix, const std::string& name, const Network& network) {
   Eigen::Index least = 0, most = 0;
   const double smallest = matrix.diagonal().minCoeff(&least), largest = matrix.diagonal().maxCoeff(&most);

@@ -33,7 +33,7 @@ constexpr const char* kOfComputation = "it describes the computation itself";
 constexpr const char* kOfPeriodMap = "it would need the second derivative of the period map";
 
 constexpr QuantityRow kTable[] = {
-    // Of a mass.
+    // For a mass.
     {.measure = Measure::amplitude,
      .owner = Owner::mass,
      .suffix = "amplitude",
@@ -136,7 +136,7 @@ constexpr QuantityRow kTable[] = {
      .value = value::transmissibility,
      .derivative = derivative_of::transmissibility},
 
-    // Of an element.
+    // For an element.
     {.measure = Measure::stroke,
      .owner = Owner::element,
      .suffix = "stroke",
@@ -185,7 +185,7 @@ constexpr QuantityRow kTable[] = {
      .value = value::energy_share,
      .derivative = derivative_of::energy_share},
 
-    // Of a Coulomb element.
+    // For a Coulomb element.
     {.measure = Measure::stops,
      .owner = Owner::contact,
      .suffix = "stops",
@@ -230,7 +230,7 @@ constexpr QuantityRow kTable[] = {
      .value = value::regime,
      .why_not_differentiated = kNoNumber},
 
-    // Of an iwan element.
+    // For an iwan element.
     {.measure = Measure::slipping,
      .owner = Owner::sliders,
      .suffix = "slipping",
@@ -243,7 +243,7 @@ constexpr QuantityRow kTable[] = {
      .value = value::slipping,
      .why_not_differentiated = kNoNumber},
 
-    // Of the response.
+    // For the response.
     {.measure = Measure::status,
      .owner = Owner::point,
      .suffix = "status",
@@ -398,7 +398,7 @@ constexpr QuantityRow kTable[] = {
      .value = value::events,
      .why_not_differentiated = kNoNumber},
 
-    // Of a mode of the linear system.
+    // For a mode of the linear system.
     {.measure = Measure::natural_frequency,
      .owner = Owner::mode,
      .suffix = "natural_frequency",

@@ -48,7 +48,7 @@ bool keep_frequency(DrivenMotion& driven, double omega, double phase, double unt
   return true;
 }
 
-// Under records, from one of their times to the next, beside harmonics of one frequency.
+// Under records, from one of their times to the next, together with harmonics of one frequency.
 bool follow_records(DrivenMotion& driven, double omega, const RecordCourse& course, double until) {
   const std::vector<double>& times = course.times();
   driven.drive(omega, 0.0, 0.0);

@@ -98,7 +98,7 @@ bool has(const Row& row, const Network& network, const mechanics::Element& eleme
   return !mechanics::is_on_belt(network, element.along);
 }
 
-// Of springs the stroke, of elements with a contact all.
+// For springs the stroke, of elements with a contact all.
 bool is_standard_of(const Row& row, const mechanics::Element& element) {
   const bool is_spring = mechanics::kind_of(element).stroke_is_standard && row.measure == stroke;
   return is_spring || mechanics::has_contact(element);

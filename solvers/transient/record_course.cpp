@@ -18,7 +18,7 @@ using mechanics::MechanicsError;
 // r, r', r'', r''' at an instant.
 using Numbers = std::array<double, mechanics::kRecordNumbers>;
 
-// Of a record's range: far beyond what lies between the samples of a smooth motion.
+// For a record's range: far beyond what lies between the samples of a smooth motion.
 constexpr double kStrays = 0.25;
 
 // Slope at t[0] of the parabola through three points.
@@ -58,7 +58,7 @@ Numbers later(const Numbers& r, double s) {
           r[2] + s * r[3], r[3]};
 }
 
-// A record from each of its times on; behind the last one what remains.
+// A record from each of its times on; after the last one what remains.
 std::vector<Numbers> course_of(const Record& record) {
   const std::vector<double>&t = record.time, &y = record.values;
   std::vector<Numbers> course;

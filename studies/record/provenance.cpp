@@ -18,8 +18,7 @@ namespace frahm::studies {
 
 std::string utc_now() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z",
-                     fmt::gmtime(now));  // a time_point would be printed in local time
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(now));  // a time_point would be in local time
 }
 
 results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {

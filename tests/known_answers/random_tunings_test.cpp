@@ -27,7 +27,7 @@ class Searches {
         tuning_(task, task.limits, effort_, never_stop_),
         scan_(task, tuning_.space(), tuning_.curves(), effort_, never_stop_) {}
 
-  // Of searches that take more than so many responses together.
+  // For searches that take more than so many responses together.
   Score best(std::uint64_t responses) {
     std::vector<Trial> trials = map();
     const auto by_score = [](const Trial& a, const Trial& b) { return a.score < b.score; };
