@@ -117,7 +117,7 @@ std::string wrong(const ResonanceLines& lines, ResponseTo shaken_by) {
 std::string wrong(const OneMass& known) {
   for (const auto& value : {known.mass, known.stiffness}) {
     if (value && !(std::isfinite(*value) && *value > 0.0))
-      return "mass and stiffness must be positive and finite, one is " + number(*value);
+      return "mass and stiffness must be positive and finite, but one is " + number(*value);
   }
   return "";
 }

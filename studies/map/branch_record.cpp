@@ -70,7 +70,7 @@ std::vector<results::Variable> sample_variables(const Study& study, std::size_t 
   }
   variables.push_back(number("floquet_radius", "largest modulus of the multipliers over the whole period"));
   variables.push_back(number("residual", "residual of the periodic condition, relative to the orbit"));
-  variables.push_back(flag("stability", "of the orbit", {"stable", "unstable"}));
+  variables.push_back(flag("stability", "stability of the orbit", {"stable", "unstable"}));
   variables.push_back(flag("special", "kind of a special point", kinds));
   variables.push_back(number("special_residual", "residual of the equation of a special point"));
   variables.push_back(flag("special_element", "element whose event begins or ends there", names));

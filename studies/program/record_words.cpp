@@ -88,7 +88,7 @@ constexpr RecordWord all_words[] = {
     {"final_energy", of_motion, "kinetic and potential energy at the end"},
     {"discretisation_error", of_motion,
      "largest change of any displacement when the stairs of a run-up's frequency were last halved"},
-    {"*_dissipated", of_motion, "energy dissipated by an element until then"},
+    {"*_dissipated", of_motion, "energy dissipated so far by an element"},
     {"*_touch", of_motion, "times from which a gap is in contact"},
     {"*_touch_end", of_motion, "times at which the contact of a gap ends"},
     {"touch", of_motion, "number of a contact of a gap"},

@@ -20,9 +20,8 @@ std::optional<Study> study_of(const results::MapReader& result, const std::files
   try {
     return read_stored_study(result, file).study;
   } catch (const StudyError& error) {
-    std::cerr << fmt::format(
-        "frahm: the study in {} cannot be read again, so the report does without it: {}\n", file.string(),
-        error.what());
+    std::cerr << fmt::format("frahm: the study in {} cannot be read again, so the report leaves it out: {}\n",
+                             file.string(), error.what());
     return std::nullopt;
   }
 }

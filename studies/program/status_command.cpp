@@ -122,7 +122,7 @@ bool is_part_of(const std::filesystem::path& file, const engine::LogHeader& logs
 
 std::string state_of_logs(const std::filesystem::path& file, const engine::LogHeader& logs) {
   if (!std::filesystem::exists(file)) return "unfinished";
-  return is_part_of(file, logs) ? "a part was made from the logs next to it, which continue"
+  return is_part_of(file, logs) ? "a part, made from the logs next to it; its run continues"
                                 : "a newer run is in progress or was stopped";
 }
 

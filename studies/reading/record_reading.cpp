@@ -120,8 +120,8 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                   : word == "forced" ? MotionKind::forced
                                      : MotionKind::periodic;
   if (record.motion != MotionKind::forced && measured)
-    section.fail(rules::unfit_for_method, "motion",
-                 "\"{}\", but an excitation was measured, which is for \"forced\"", word);
+    section.fail(rules::unfit_for_method, "motion", "\"{}\", but a measured excitation needs \"forced\"",
+                 word);
   if (record.motion != MotionKind::free && !measured && !stated)
     section.fail(rules::missing_section, "motion",
                  "\"{}\", but the study has no [excitation] and none was measured", word);

@@ -198,7 +198,7 @@ void print_front(const TuningAbout& about, std::ostream& out) {
                   outcome_words().at(static_cast<std::size_t>(optimum.outcome)));
   }
   if (!dominated.empty())
-    fmt::print(out, "{:>34}  a lower limit does as well\n", fmt::format("{}", fmt::join(dominated, ", ")));
+    fmt::print(out, "{:>34}  a lower limit is as good\n", fmt::format("{}", fmt::join(dominated, ", ")));
   const tuning::FrontEnds& ends = about.optimum.ends;
   if (!std::isnan(ends.most)) print_point(ends.most, ends.objective_at_most, "without limit");
   if (!std::isnan(ends.least)) print_point(ends.least, ends.objective_at_least, "least");

@@ -34,8 +34,7 @@ class Factors {
     if (kept.unit == now.unit) return 1.0;
     const auto found = factors_.find({kept.unit, now.unit});
     if (found == factors_.end())
-      throw std::logic_error(
-          fmt::format("{}: from {} to {}, which is no factor", kept.name, kept.unit, now.unit));
+      throw std::logic_error(fmt::format("{}: no factor converts {} to {}", kept.name, kept.unit, now.unit));
     return found->second;
   }
 

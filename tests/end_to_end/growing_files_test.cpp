@@ -247,7 +247,7 @@ TEST_CASE(
   REQUIRE(frahm({"merge", apart, "--partial"}).code == 0);
   CHECK_THAT(
       frahm({"status", apart}).out,
-      Catch::StartsWith(apart + ": a part was made from the logs next to it, which continue\npoints "));
+      Catch::StartsWith(apart + ": a part, made from the logs next to it; its run continues\npoints "));
   REQUIRE(run(study, apart, {"--from", output, "--shard", "1/2"}).code == 0);
   CHECK(frahm({"merge", apart}).code == 0);
   CHECK_THAT(frahm({"status", apart}).out, Catch::StartsWith(apart + ": finished\n"));

@@ -140,7 +140,7 @@ TEST_CASE("a file made beside a shard still at work is made, and the shard's log
     const auto outcome = run(study, result);
     CHECK(outcome.code == 0);
     CHECK_THAT(outcome.err,
-               Catch::Contains("one of them was left: " + log.string()) && Catch::Contains("in use by"));
+               Catch::Contains("one log remains: " + log.string()) && Catch::Contains("in use by"));
     CHECK(std::filesystem::exists(log));
   }
   CHECK(run(study, result).code == 0);  // everything is computed already
