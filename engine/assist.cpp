@@ -106,7 +106,8 @@ int assist(const Job& job, const RunOptions& options) {
   RankMessage leaving{.kind = Kind::leave};
   if (first.kind == Kind::begin) {
     if (first.study != study)
-      throw IoError(options.output, "is of another study, or another version of this program, on rank 0");
+      throw IoError(options.output,
+                    "belongs to another study, or to another version of this program, on rank 0");
     leaving.finished = compute_tiles(job, options, threads, signals);
     if (signals.received() != 0) leaving.text = "stopped by " + signal_name(signals.received());
   }

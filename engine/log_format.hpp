@@ -80,7 +80,7 @@ struct LogExtent {
   std::uint64_t good_bytes = 0;  // header and entries up to the first bad one
   std::uint64_t file_bytes = 0;
 
-  // Behind the last good entry: one cut off by a kill or still being written, or damage.
+  // After the last good entry: one cut off by a kill or still being written, or damage.
   std::uint64_t unused_bytes() const { return file_bytes - good_bytes; }
 };
 

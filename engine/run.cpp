@@ -27,8 +27,9 @@ using namespace std::chrono_literals;
 
 void check(const RunOptions& options) {
   if (options.shard.count == 0 || options.shard.index >= options.shard.count) {
-    throw std::invalid_argument(fmt::format("shard {}/{}: the index must be below the count, from 0 on",
-                                            options.shard.index, options.shard.count));
+    throw std::invalid_argument(
+        fmt::format("shard {}/{}: the index must be below the count; it starts from 0", options.shard.index,
+                    options.shard.count));
   }
   if (options.threads < 0) {
     throw std::invalid_argument(fmt::format("threads = {}: must be >= 0", options.threads));
@@ -53,7 +54,7 @@ void discard_logs(const RunOptions& options, const LogHeader& study) {
   remove_logs(logs);
 }
 
-// The tiles of the shard that are missing in the logs beside the output.
+// The tiles of the shard that are missing in the logs next to the output.
 struct Remainder {
   std::vector<std::uint64_t> tiles;  // in order
   Summary so_far;                    // counts of the logs
@@ -123,7 +124,8 @@ Tally tally_of(const Tally& found, const Job& job, const TeamWork& work,
   return now;
 }
 
-// While it exists, rank 0 serves the other ranks beside its own work. Without other ranks it does nothing.
+// While it exists, rank 0 serves the other ranks in addition to its own work. Without other ranks it does
+// nothing.
 class Attendance {
  public:
   Attendance(std::optional<Dealer>& dealer, StopAsked stop_asked) : dealer_(dealer) {

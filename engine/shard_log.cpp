@@ -28,7 +28,7 @@ ShardLog::ShardLog(const std::filesystem::path& path, const LogHeader& header)
 
 ShardLog::~ShardLog() {
   if (end_ > header_size) return;
-  std::error_code ignored;  // an empty log left behind is harmless
+  std::error_code ignored;  // an empty log that is left is harmless
   std::filesystem::remove(file_.path(), ignored);
 }
 

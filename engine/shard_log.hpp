@@ -25,7 +25,7 @@ class ShardLog {
   ShardLog(const ShardLog&) = delete;
   ShardLog& operator=(const ShardLog&) = delete;
 
-  // The extent of the log when it was opened; bytes behind the good ones have been cut off.
+  // The extent of the log when it was opened; bytes after the good ones have been cut off.
   const LogExtent& found() const { return found_; }
 
   // Saves one finished tile. Throws IoError (disk full, ...), after which the tiles saved before are still

@@ -27,7 +27,7 @@ struct Survey {
   Tally points;                        // resumed: 0
   std::vector<std::uint64_t> missing;  // tiles that are in no log, in order
   std::vector<WriterState> writers;    // one for each log of the study
-  std::vector<UnusedBytes> unused;     // behind the last good entry of a log
+  std::vector<UnusedBytes> unused;     // after the last good entry of a log
   std::optional<double> rate;          // points a second of all writers at work; nothing where unknown
   std::optional<double> seconds_left;  // at this rate
 };

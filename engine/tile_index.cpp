@@ -28,10 +28,9 @@ bool is_log_name(std::string_view name, std::string_view output_name) {
 
 [[noreturn]] void refuse_entry(const std::filesystem::path& log, std::uint64_t tile, std::uint64_t offset,
                                const BadEntry& bad) {
-  throw IoError(log,
-                fmt::format("the record of tile {} at byte {} has a right checksum and a wrong content: {}; "
-                            "remove the file to have its tiles computed again",
-                            tile, offset, bad.what()));
+  throw IoError(log, fmt::format("the record of tile {} at byte {} has a correct checksum but wrong content: "
+                                 "{}; remove the file to have its tiles computed again",
+                                 tile, offset, bad.what()));
 }
 
 // Enters the tiles of one log into the index.
@@ -150,7 +149,7 @@ void for_each_tile(const TileIndex& index, const TileVisitor& visit) {
 void remove_logs(const std::vector<std::filesystem::path>& logs) {
   for (const auto& log : logs) {
     const File held = open_locked(log, owner_offset);
-    if (!begins_as_log(held)) throw IoError(log, "is no shard log and is not removed; rename it");
+    if (!begins_as_log(held)) throw IoError(log, "is not a shard log and is not removed; rename it");
     std::error_code error;
     std::filesystem::remove(log, error);
     if (error) throw IoError(log, "remove", error.value());

@@ -18,17 +18,17 @@
 // Reads the finished tiles of all writers of shards.
 namespace frahm::engine {
 
-// The log of a writer, beside the output: <output>.<writer>.frahm-log; a writer's name has no dot.
+// The log of a writer, next to the output: <output>.<writer>.frahm-log; a writer's name has no dot.
 std::filesystem::path log_path(const std::filesystem::path& output, const std::string& writer);
 
-// All logs beside `output`, by name. Throws IoError.
+// All logs next to `output`, by name. Throws IoError.
 std::vector<std::filesystem::path> find_logs(const std::filesystem::path& output);
 
 // The study a log belongs to, without reading its tiles; nothing if the log is gone or was cut off in its
 // header. Throws IoError for a file that is no shard log, is one of another version, or has a damaged header.
 std::optional<LogHeader> study_of_log(const std::filesystem::path& log);
 
-// Bytes of a log behind its last good entry, which are not used: an entry cut off by a kill or still being
+// Bytes of a log after its last good entry, which are not used: an entry cut off by a kill or still being
 // written, or damage.
 struct UnusedBytes {
   std::filesystem::path log;

@@ -9,7 +9,7 @@
 
 namespace frahm::periodic {
 
-// A branch beside the map on which it is followed, so that orbits can be compared with it afterwards.
+// A branch with the map on which it is followed, so that orbits can be compared with it afterwards.
 class FollowedBranch {
  public:
   FollowedBranch(const mechanics::Network& network, const std::vector<Quantity>& quantities,

@@ -29,9 +29,9 @@ class Coexistence {
   Orbits find(const mechanics::LinearSystem& system, const Orbits* before);
   // Adds to `found`, which are those of `system`, the ones to which those of the point after lead.
   void add(const mechanics::LinearSystem& system, const Orbits& after, Orbits& found);
-  // Sets `orbit` to the one to be told; the flow is then set to its multiple of the period.
+  // Sets `orbit` to the one to be reported; the flow is then set to its multiple of the period.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, Orbit<N, H>& orbit);
-  // The same of any of those found; if none was, of a motion that did not settle, over kMotion periods.
+  // The same for any of those found; if none was, of a motion that did not settle, over kMotion periods.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
             Orbit<N, H>& orbit);
 

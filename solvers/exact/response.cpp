@@ -29,7 +29,7 @@ void ResponseSolver::solve_rest(std::span<const mechanics::NetworkValues> points
   solve_along(points, wanted, std::vector<char>(points.size(), 1), found, out);
 }
 
-// Solves those of a row that are solved, one after the other, and tells those that are told. The solver
+// Solves those of a row that are solved, one after the other, and names those that are reported. The solver
 // extrapolates over the frequency, which must change in one direction: where it turns back or pauses, a new
 // row begins.
 void ResponseSolver::solve_along(std::span<const mechanics::NetworkValues> points,

@@ -43,7 +43,7 @@ class RestForces {
   // are: their places of rest then lie within those that are possible.
   OrbitCuts cuts_through(ContactMask contacts, const Orbit<N, H>& orbit) const;
   // The forces across these cuts over the orbit, which is laid out in `steps`, while the motion tells them;
-  // at other times one counts as the first that is told.
+  // at other times one counts as the first that is reported.
   std::vector<StuckForce> across(const std::vector<OrbitCut>& cuts, const Orbit<N, H>& orbit,
                                  OrbitSteps<N, H>& steps) const;
 

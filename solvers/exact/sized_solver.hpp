@@ -152,7 +152,7 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   return conclude();
 }
 
-// Of the orbit that was found.
+// For the orbit that was found.
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::conclude() {
   observables_.forget();

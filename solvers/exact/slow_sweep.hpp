@@ -44,7 +44,7 @@ class SlowSweep {
   typename S::State z_;  // of the motion, at phase 0
   double step_ = 0.0;    // [s], in which it counts the time
   int multiple_ = 1;
-  int passages_ = 0, newton_iterations_ = 0;  // since the last orbit that was told
+  int passages_ = 0, newton_iterations_ = 0;  // since the last orbit that was reported
   StableOrbits<N, H> found_;                  // at this frequency
   std::size_t on_ = 0;                        // of those
   Passage<N, H> passage_;

@@ -254,7 +254,7 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::of_known_family(const Sta
 }
 
 // Where an event only just happens, or a contact at rest only just holds, the multipliers do not exist or say
-// nothing of the motions beside the orbit on one side; they are followed. as_found: the orbit before its
+// nothing of the motions next to the orbit on one side; they are followed. as_found: the orbit before its
 // contacts that stick throughout were brought to rest.
 template <int N, int H>
 bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, const Orbit<N, H>& as_found, Orbits& found) {
@@ -283,8 +283,8 @@ bool StableSearch<N, H>::is_edge_of_stable_family(const Orbit<N, H>& orbit, cons
   return inside.is_stable();
 }
 
-// Whether the motion beside an orbit comes closer to it. The rest positions of contacts that stick throughout
-// do not count.
+// Whether the motion next to an orbit comes closer to it. The rest positions of contacts that stick
+// throughout do not count.
 template <int N, int H>
 bool StableSearch<N, H>::dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found) {
   constexpr double kGone = 0.1, kGrown = 10.0;

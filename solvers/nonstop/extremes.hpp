@@ -126,7 +126,7 @@ FRAHM_INLINE Lanes side_phase(const TraceStep<W>& trace, Lanes phase) {
 }
 
 // Searches a part for values above the best, in the lanes where there may be any: Bernstein coefficients
-// bound it. Where the cubic has a maximum within, that of the trace is solved and the parts beside it are
+// bound it. Where the cubic has a maximum within, that of the trace is solved and the parts next to it are
 // looked at again; where it has none, the part is halved. Returns the lanes in which neither ends.
 template <class W>
 inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among, int depth, Extreme& best) {
@@ -145,7 +145,7 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   const Lanes under = q * q - 3.0 * r * d0, root = sqrt(max(under, lanes(0.0)));
   const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
   // A release begins with a slope of zero, which is no extreme that is reached, and which the cubic, wrong by
-  // its error, crosses beside it: the part there is cut short until such a crossing is out of it.
+  // its error, crosses next to it: the part there is cut short until such a crossing is out of it.
   const bool is_release = trace.w.is_released && trace.step == 0;
   const Lanes cut = is_release ? select(part.from > 0.0, lanes(0.5), 0.125) : lanes(0.5);
   const Lanes first = is_release ? select(part.from > 0.0, lanes(0.0), 0.125) : lanes(0.0);

@@ -112,7 +112,7 @@ inline bool lay_out_steps(const W& w, Segment& segment, double fineness, Lanes& 
   const Lanes count = max(floor(segment.length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
   segment.count = count;
   segment.h = segment.length / count;
-  // A lane's own steps decide, not those that others of its group take beside it.
+  // A lane's own steps decide, not those that others of its group take next to it.
   steps_so_far += count;
   passage.shortest = min(passage.shortest, segment.length);
   passage.proved = passage.proved & passage.may_hold() & (segment.length > kShortest) &

@@ -35,7 +35,7 @@ class Observables {
 
   // Whether the work put in in a period is dissipated in it. evaluate() uses the same measurements.
   bool is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system);
-  // Of the orbit that was not balanced.
+  // For the orbit that was not balanced.
   double energy_balance() const { return value::energy_balance(measured_, {}); }
 
   // The next call measures another orbit.

@@ -12,7 +12,7 @@
 // s = -1 for a passage of half a period.
 namespace frahm::periodic {
 
-// "" if the orbit's search succeeded; else why there is no derivative.
+// "" if the orbit's search succeeded; otherwise why there is no derivative.
 template <int N, int H>
 const char* why_no_orbit_derivative(const Orbit<N, H>& orbit) {
   switch (orbit.status) {

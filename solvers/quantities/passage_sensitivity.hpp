@@ -56,7 +56,7 @@ class PassageSensitivity {
 
   explicit PassageSensitivity(const Flow<N, H>& flow) : flow_(flow) {}
 
-  // The direction from now on; `by` must outlive what is asked below. To be called anew when the flow's
+  // The direction from now on; `by` must outlive what is asked below. To be called again when the flow's
   // system or forcing has changed.
   void set_direction(const StepDerivative<N, H>& by);
 
@@ -360,8 +360,8 @@ void PassageSensitivity<N, H>::set_shift(GuardReached& reached, const Side& befo
   reached.size = (size + std::abs(by)) / std::abs(reached.slope);
 }
 
-// Of all that reached their guards, NaN where it differs; else of an idle contact's share that falls below
-// its limit.
+// For all that reached their guards, NaN where it differs; otherwise of an idle contact's share that falls
+// below its limit.
 template <int N, int H>
 double PassageSensitivity<N, H>::common_shift(const Event& change, const Side& after,
                                               const typename S::State& delta) {

@@ -168,7 +168,7 @@ const QuantityRow* row_named(const std::string& name) {
   return best;
 }
 
-// Of an element's displacement, which has no end on a belt.
+// For an element's displacement, which has no end on a belt.
 bool is_of_displacement(const QuantityRow& row) {
   return row.measure == Measure::stroke || row.measure == Measure::element_phase;
 }

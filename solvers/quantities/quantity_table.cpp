@@ -29,11 +29,11 @@ constexpr Needs kStability{.stability = true};
 constexpr Needs kModes{.modes = true};
 
 constexpr const char* kNoNumber = "it is a count or a flag, which jumps";
-constexpr const char* kOfComputation = "it is a figure of the computation itself";
-constexpr const char* kOfPeriodMap = "it would take the second derivative of the period map";
+constexpr const char* kOfComputation = "it describes the computation itself";
+constexpr const char* kOfPeriodMap = "it would need the second derivative of the period map";
 
 constexpr QuantityRow kTable[] = {
-    // Of a mass.
+    // For a mass.
     {.measure = Measure::amplitude,
      .owner = Owner::mass,
      .suffix = "amplitude",
@@ -47,7 +47,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::mass,
      .suffix = "peak",
      .unit = "m",
-     .meaning = "largest displacement of {}, either way",
+     .meaning = "largest displacement of {} in either direction",
      .standard = {StandardOf::masses, 1},
      .shown = Shown::of_all,
      .of_trace = OfTrace::side,
@@ -93,7 +93,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::mass,
      .suffix = "velocity_peak",
      .unit = "m s-1",
-     .meaning = "largest velocity of {}, either way",
+     .meaning = "largest velocity of {} in either direction",
      .trace = TraceKind::velocity,
      .of_trace = OfTrace::side,
      .value = value::peak,
@@ -102,7 +102,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::mass,
      .suffix = "acceleration_peak",
      .unit = "m s-2",
-     .meaning = "largest acceleration of {}, either way",
+     .meaning = "largest acceleration of {} in either direction",
      .trace = TraceKind::acceleration,
      .of_trace = OfTrace::side,
      .value = value::peak,
@@ -130,18 +130,18 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::mass,
      .suffix = "transmissibility",
      .unit = "1",
-     .meaning = "amplitude of {} at the reference order over that of the one support that moves",
+     .meaning = "amplitude of {} at the reference order over that of the only moving support",
      .of_trace = OfTrace::size_in_derivative,
      .needs = kIntegrals,
      .value = value::transmissibility,
      .derivative = derivative_of::transmissibility},
 
-    // Of an element.
+    // For an element.
     {.measure = Measure::stroke,
      .owner = Owner::element,
      .suffix = "stroke",
      .unit = "m",
-     .meaning = "largest relative displacement across {}, either way",
+     .meaning = "largest relative displacement across {} in either direction",
      .standard = {StandardOf::springs, 1},
      .shown = Shown::of_springs,
      .of_trace = OfTrace::side,
@@ -160,7 +160,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::element,
      .suffix = "force_peak",
      .unit = "N",
-     .meaning = "largest force of {}, either way",
+     .meaning = "largest force of {} in either direction",
      .trace = TraceKind::element_force,
      .of_trace = OfTrace::side,
      .value = value::peak,
@@ -185,12 +185,12 @@ constexpr QuantityRow kTable[] = {
      .value = value::energy_share,
      .derivative = derivative_of::energy_share},
 
-    // Of a Coulomb element.
+    // For a Coulomb element.
     {.measure = Measure::stops,
      .owner = Owner::contact,
      .suffix = "stops",
      .unit = "1",
-     .meaning = "stops of finite length of {} in a period",
+     .meaning = "number of stops of finite length of {} in a period",
      .kind = QuantityKind::count,
      .of_a_period = true,
      .standard = {StandardOf::contacts, 1},
@@ -202,7 +202,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::contact,
      .suffix = "reversals",
      .unit = "1",
-     .meaning = "changes of sliding direction of {} in a period",
+     .meaning = "number of changes of sliding direction of {} in a period",
      .kind = QuantityKind::count,
      .of_a_period = true,
      .needs = kHistories,
@@ -230,12 +230,12 @@ constexpr QuantityRow kTable[] = {
      .value = value::regime,
      .why_not_differentiated = kNoNumber},
 
-    // Of an iwan element.
+    // For an iwan element.
     {.measure = Measure::slipping,
      .owner = Owner::sliders,
      .suffix = "slipping",
      .unit = "1",
-     .meaning = "sliders of {} that slip in a period",
+     .meaning = "number of sliders of {} that slip in a period",
      .kind = QuantityKind::count,
      .standard = {StandardOf::contacts, 1},
      .shown = Shown::of_all,
@@ -243,7 +243,7 @@ constexpr QuantityRow kTable[] = {
      .value = value::slipping,
      .why_not_differentiated = kNoNumber},
 
-    // Of the response.
+    // For the response.
     {.measure = Measure::status,
      .owner = Owner::point,
      .suffix = "status",
@@ -269,7 +269,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::coexistence,
      .suffix = "coexisting",
      .unit = "1",
-     .meaning = "stable responses that were found",
+     .meaning = "number of stable responses that were found",
      .kind = QuantityKind::count,
      .standard = {StandardOf::coexistence, 1},
      .shown = Shown::of_all,
@@ -279,7 +279,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::coexistence,
      .suffix = "period_multiple",
      .unit = "1",
-     .meaning = "periods of the excitation that the response takes",
+     .meaning = "number of periods of the excitation that the response takes",
      .kind = QuantityKind::count,
      .standard = {StandardOf::coexistence, 2},
      .shown = Shown::of_all,
@@ -289,7 +289,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::coexistence,
      .suffix = "unsettled",
      .unit = "1",
-     .meaning = "starts of the search that came to no stable response",
+     .meaning = "number of starts of the search that reached no stable response",
      .kind = QuantityKind::count,
      .standard = {StandardOf::coexistence, 3},
      .shown = Shown::of_all,
@@ -300,8 +300,8 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::offsets,
      .suffix = "continuum",
      .unit = "1",
-     .meaning = "sliders that never slip: above 0 the response is one of a continuum, that with z(T/2) = "
-                "-z(0), else of least energy; the error bound is of this one",
+     .meaning = "number of sliders that never slip; above 0 the response is one of a continuum: the one with "
+                "z(T/2) = -z(0), otherwise the one of least energy, to which the error bound refers",
      .kind = QuantityKind::count,
      .standard = {StandardOf::offsets, 1},
      .shown = Shown::of_all,
@@ -321,7 +321,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::point,
      .suffix = "energy_balance",
      .unit = "1",
-     .meaning = "energy put in less energy dissipated, relative",
+     .meaning = "energy put in minus energy dissipated, relative",
      .standard = {StandardOf::point, 3},
      .needs = kBalance,
      .value = value::energy_balance,
@@ -367,7 +367,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::point,
      .suffix = "residual",
      .unit = "1",
-     .meaning = "residual of the periodic condition, relative, energy norm",
+     .meaning = "relative residual of the periodic condition in the energy norm",
      .standard = {StandardOf::point, 4},
      .value = value::residual,
      .why_not_differentiated = kOfComputation},
@@ -384,7 +384,7 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::point,
      .suffix = "newton_iterations",
      .unit = "1",
-     .meaning = "Newton steps of the search",
+     .meaning = "number of Newton steps of the search",
      .kind = QuantityKind::count,
      .value = value::newton_iterations,
      .why_not_differentiated = kNoNumber},
@@ -392,13 +392,13 @@ constexpr QuantityRow kTable[] = {
      .owner = Owner::point,
      .suffix = "events",
      .unit = "1",
-     .meaning = "stops, releases and reversals of all contacts in a period",
+     .meaning = "number of stops, releases and reversals of all contacts in a period",
      .kind = QuantityKind::count,
      .of_a_period = true,
      .value = value::events,
      .why_not_differentiated = kNoNumber},
 
-    // Of a mode of the linear system.
+    // For a mode of the linear system.
     {.measure = Measure::natural_frequency,
      .owner = Owner::mode,
      .suffix = "natural_frequency",

@@ -53,8 +53,9 @@ const Network& without_mixed_laws(const Network& network) {
   for (const Element& element : network.elements) {
     const bool rubs_exactly = mechanics::has_contact(element) && !mechanics::has_smooth_law(element);
     if (!rubs_exactly && element.bends.empty()) continue;
-    throw mechanics::MechanicsError("element '" + element.name +
-                                    "' follows an exact law and others a smooth one: one kind for all");
+    throw mechanics::MechanicsError(
+        "element '" + element.name +
+        "' follows an exact law and others a smooth one: all must follow the same kind");
   }
   return network;
 }
@@ -116,7 +117,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
     return why_no_derivative(0);
   }
   const char* why_no_derivative(std::size_t) const override {
-    return "a response under a smooth law is integrated, and has no exact derivative";
+    return "a response under a smooth law is integrated and has no exact derivative";
   }
 
   const char* observe(std::span<const double>, std::span<const periodic::Observed>,

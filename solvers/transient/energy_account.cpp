@@ -25,7 +25,7 @@ using AtNodes = Eigen::Array<double, kNodes, 1>;
 constexpr int kLanes = 8;
 using Powers = Eigen::Array<double, kLanes, kTerms>;
 
-// Of the nodes of a step's first `length`, a row for each.
+// For the nodes of a step's first `length`, a row for each.
 Powers powers_at_nodes(double length) {
   Powers at = Powers::Zero();
   for (int i = 0; i < kNodes; ++i)
@@ -352,7 +352,7 @@ void EnergyAccount::sample(const Account& account, const Expansion& step, double
   }
 }
 
-// Of the forms at the nodes.
+// For the forms at the nodes.
 void EnergyAccount::integrate(const Account& account, const Mode& mode, double length,
                               Energies& energies) const {
   const Eigen::Map<const AtNodes> weight(periodic::kNodeWeight);

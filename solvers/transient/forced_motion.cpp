@@ -48,7 +48,7 @@ bool keep_frequency(DrivenMotion& driven, double omega, double phase, double unt
   return true;
 }
 
-// Under records, from one of their times to the next, beside harmonics of one frequency.
+// Under records, from one of their times to the next, together with harmonics of one frequency.
 bool follow_records(DrivenMotion& driven, double omega, const RecordCourse& course, double until) {
   const std::vector<double>& times = course.times();
   driven.drive(omega, 0.0, 0.0);
@@ -90,12 +90,12 @@ struct Problem {
 
 std::optional<RecordCourse> course_of(const mechanics::Network& network, const ForcedOptions& options) {
   if (!mechanics::has_records(network)) return std::nullopt;
-  if (options.run_up.rate != 0.0) throw mechanics::MechanicsError("a run-up cannot be driven by records too");
+  if (options.run_up.rate != 0.0)
+    throw mechanics::MechanicsError("a run-up cannot also be driven by records");
   for (const RecordedExcitation& each : options.records) {
     if (options.duration <= each.record->time.back() || is_known_behind(*each.record)) continue;
-    throw mechanics::MechanicsError(
-        "record '" + each.record->name +
-        "': ends while its support moves, so that the motion is not known beyond");
+    throw mechanics::MechanicsError("record '" + each.record->name +
+                                    "': ends while its support moves, so the later motion is not known");
   }
   return RecordCourse(network, options.records);
 }

@@ -26,7 +26,7 @@ void add_estimates(const Study& study, const Identification& found, const std::s
     columns.add_number(name + "_low", unit, "lower end of the 95 % interval of " + name, estimate.low);
     columns.add_number(name + "_high", unit, "upper end of the 95 % interval of " + name, estimate.high);
     columns.add_number(name + "_standard_error", unit, "standard error of " + name, estimate.standard_error);
-    columns.add_number(name + "_degrees_of_freedom", "1", "behind the interval of " + name,
+    columns.add_number(name + "_degrees_of_freedom", "1", "degrees of freedom behind the interval of " + name,
                        estimate.degrees_of_freedom);
   }
 }
@@ -60,7 +60,7 @@ void add_record(const Study& study, const FittedRecord& record, GroupColumns& co
       residual.push_back(series.measured[i] - series.fitted[i]);
     columns.add(name + "_measured", unit, series.name + " as measured", along, series.measured);
     columns.add(name + "_fitted", unit, series.name + " of the model", along, series.fitted);
-    columns.add(name + "_residual", unit, "measured less fitted " + series.name, along, std::move(residual));
+    columns.add(name + "_residual", unit, "measured minus fitted " + series.name, along, std::move(residual));
     columns.add_number(name + "_nrmse", "percent", "fit quality of " + name,
                        identification::nrmse(std::span(&series, 1)));
   }
@@ -74,8 +74,8 @@ void refuse_same_names(const Study& study, const std::vector<results::Column>& c
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice == names.end()) return;
   throw StudyError(rules::name_taken,
-                   "{}: the result would have two things called \"{}\": one a parameter, record or mass "
-                   "of the study; call that otherwise",
+                   "{}: the result would have two things called \"{}\", one of them a parameter, record or "
+                   "mass of the study; rename that",
                    study.source.name, *twice);
 }
 
@@ -99,7 +99,8 @@ std::vector<results::Column> identification_columns(const Study& study, const Id
   for (const FittedRecord& record : fit.records) add_record(study, record, columns);
   columns.add_flag("outcome", "how the identification ended", "", {"converged", "not_converged"},
                    {fit.converged ? converged_outcome : converged_outcome + 1.0});
-  columns.add_number("degrees_of_freedom", "1", "of the residuals", fit.degrees_of_freedom);
+  columns.add_number("degrees_of_freedom", "1", "degrees of freedom of the residuals",
+                     fit.degrees_of_freedom);
   columns.add_count("iterations", "iterations of the fit", "", {static_cast<double>(fit.iterations)});
   std::vector<results::Column> all = columns.take();
   refuse_same_names(study, all);

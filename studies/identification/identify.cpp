@@ -43,9 +43,8 @@ void name_parameters(const Study& study, Identification& fit) {
     };
     if (place == names.end()) throw std::logic_error("no estimate " + parameter.estimate);
     if (std::find(names.begin(), names.end(), own) != names.end())
-      fail(rules::name_taken,
-           fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
-                       method_name(study.identify()->method)));
+      fail(rules::name_taken, fmt::format("an estimate of the method {} has this name; rename the parameter",
+                                          method_name(study.identify()->method)));
     const auto taken = static_cast<std::size_t>(place - names.begin());
     identification::Estimate alias = fit.estimates[taken];
     const std::string unit = unit_in_file(study, parameter.parameter);

@@ -155,7 +155,7 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
                  std::uint64_t tiles) {
   if (missing.empty() || options.partial) return;
   throw engine::IoError(options.output, fmt::format("{} of its {} tiles are in no shard log yet (the first "
-                                                    "is tile {}){}; --partial makes a file of the rest",
+                                                    "is tile {}){}; --partial makes a file of the others",
                                                     missing.size(), tiles, missing.front(),
                                                     missing_tasks_text(options.logs, missing)));
 }

@@ -46,7 +46,7 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
   }
   for (const GridDimension& dimension : study.map()->dimensions) dimensions.push_back(dimension.name);
   variables.push_back(flag_of("element", "coulomb element whose regime changes", elements));
-  variables.push_back(flag_of("axis", "dimension of the map along which it was found to change", dimensions));
+  variables.push_back(flag_of("axis", "dimension of the map along which it changes", dimensions));
   variables.push_back(
       regime(study, one_contact, "regime_below", "regime towards the lower index of the axis"));
   variables.push_back(

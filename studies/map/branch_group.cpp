@@ -61,18 +61,19 @@ std::vector<results::Variable> sample_variables(const Study& study, std::size_t 
   for (int kind = 0; kind <= static_cast<int>(SpecialKind::corner); ++kind)
     kinds.emplace_back(periodic::kind_name(static_cast<SpecialKind>(kind)));
   for (const std::size_t element : elements) names.push_back(study.network.elements[element].name);
-  std::vector<results::Variable> variables{parameter_variable(study, along),
-                                           number("arclength", "of the scaled branch from its first point")};
+  std::vector<results::Variable> variables{
+      parameter_variable(study, along),
+      number("arclength", "length of the scaled branch from its first point")};
   for (const periodic::Quantity& each : quantities) {
     variables.push_back(variable_of(study, periodic::describe(each, study.network, study.dimensionless)));
     variables.back().significant_bits = 0;
   }
   variables.push_back(number("floquet_radius", "largest modulus of the multipliers over the whole period"));
-  variables.push_back(number("residual", "of the periodic condition, relative to the orbit"));
-  variables.push_back(flag("stability", "of the orbit", {"stable", "unstable"}));
-  variables.push_back(flag("special", "kind of a special point, solved", kinds));
-  variables.push_back(number("special_residual", "what is left of the equation of a special point"));
-  variables.push_back(flag("special_element", "whose event begins or ends there", names));
+  variables.push_back(number("residual", "residual of the periodic condition, relative to the orbit"));
+  variables.push_back(flag("stability", "stability of the orbit", {"stable", "unstable"}));
+  variables.push_back(flag("special", "kind of a special point", kinds));
+  variables.push_back(number("special_residual", "residual of the equation of a special point"));
+  variables.push_back(flag("special_element", "element whose event begins or ends there", names));
   return variables;
 }
 

@@ -56,7 +56,7 @@ results::MapReader open_earlier_map(const std::filesystem::path& file) {
   results::MapReader result(file);
   const ResultKind kind = kind_of(result);
   if (kind == ResultKind::map) return result;
-  throw StudyError(rules::wrong_option, "--from {}: is {}, not a map: there is no point to take over",
+  throw StudyError(rules::wrong_option, "--from {}: is {}, not a map: there is no point to reuse",
                    file.string(), words_of(kind));
 }
 

@@ -58,8 +58,8 @@ void check_borders(const MapPlan& plan, std::span<const Border> borders, const M
     const RegimeCrossing& crossing = border.crossing;
     if (!has_neighbour(plan, box, border) || border.element >= elements || !is_regime(crossing.below) ||
         !is_regime(crossing.above) || !(crossing.at >= 0.0 && crossing.at <= 1.0))
-      throw BadEntry(fmt::format("a border at {} of point {}, dimension {}, element {}, is none", crossing.at,
-                                 border.offset, border.dimension, border.element));
+      throw BadEntry(fmt::format("a border at {} of point {}, dimension {}, element {}, is invalid",
+                                 crossing.at, border.offset, border.dimension, border.element));
   }
 }
 
@@ -74,7 +74,7 @@ void check_entry(const MapPlan& plan, std::uint64_t tile, std::span<const std::b
   check_failed(entry.failed, points);
   const bool has_borders = plan.study.sweep() && plan.study.sweep()->borders;
   if (entry.borders.has_value() != has_borders)
-    throw BadEntry(has_borders ? "it has no borders" : "it has borders, and the study none");
+    throw BadEntry(has_borders ? "it has no borders" : "it has borders, but the study has none");
   if (has_borders) check_borders(plan, *entry.borders, box);
 }
 

@@ -32,12 +32,12 @@ struct OrbitsCost {
 };
 OrbitsCost cost_of_orbits(const MapPlan& plan);
 
-// The same of the motions that a study of motions lists, in /histories. A motion that failed has a row
+// The same for the motions that a study of motions lists, in /histories. A motion that failed has a row
 // without samples.
 void write_histories(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
 
-// What tells the points whose histories are kept apart: the parameters on axes, and the record of an axis of
-// records. Names and units; and the numbers at SI values of all parameters.
+// What distinguishes the points whose histories are kept: the parameters on axes, and the record of an axis
+// of records. Names and units; and the numbers at SI values of all parameters.
 std::vector<results::Variable> row_variables(const Study& study);
 std::vector<double> row_values(const Study& study, std::span<const double> parameters, std::size_t record);
 

@@ -13,7 +13,7 @@ namespace frahm::studies {
 namespace {
 
 // The quantities of the study's own response: those recorded, then others that are compared, and by which
-// they are told from nothing.
+// they are distinguished from nothing.
 std::vector<periodic::Quantity> asked_for(const Study& study, std::vector<periodic::Quantity> quantities) {
   if (!study.sweep()->comparison) return quantities;
   const auto ask = [&](const periodic::Quantity& quantity) {

@@ -56,7 +56,7 @@ class MapKernel {
   std::vector<double> parameters_;      // SI
   std::vector<double> point_;           // its variables
   std::vector<double> own_compared_;    // of the study's response, those that are compared
-  std::vector<double> own_sizes_;       // by which they are told from nothing
+  std::vector<double> own_sizes_;       // by which they are distinguished from nothing
 };
 
 }  // namespace frahm::studies

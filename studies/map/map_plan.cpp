@@ -18,14 +18,13 @@
 namespace frahm::studies {
 namespace {
 
-// Who computes or assembles a map keeps track of each tile, in some 24 bytes.
+// Who computes or assembles a map keeps track of each tile, in about 24 bytes.
 void check_tiles(const MapPlan& plan) {
   constexpr std::uint64_t most = std::uint64_t{1} << 24;
   if (plan.tiles <= most) return;
   throw StudyError(
       rules::too_large,
-      "{}: the map of {} points has {} tiles, of which at most {} can be kept track of; divide it into "
-      "several studies",
+      "{}: the map of {} points has {} tiles, but at most {} can be tracked; divide it into several studies",
       plan.study.source.name, plan.grid.points(), plan.tiles, most);
 }
 

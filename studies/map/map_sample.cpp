@@ -103,7 +103,7 @@ MapPlan in_single_points(const MapPlan& plan) {
 MapSample sample_map(const MapPlan& plan, double seconds) {
   const std::uint64_t tiles = plan.grid.tiles(), stride = spreading_stride(tiles);
   MapSample sample;
-  // Of dear tiles one point alone is computed, and counts for all of its tile.
+  // For expensive tiles one point alone is computed, and counts for all of its tile.
   const MapPlan single = in_single_points(plan);
   TileSampler of_points(single), of_tiles(plan);
   const auto cost_by_point = [&](std::uint64_t tile, std::uint64_t k) {  // the k-th of its points

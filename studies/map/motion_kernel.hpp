@@ -33,7 +33,7 @@ class MotionKernel {
   engine::StopAsked stop_asked_;
   OpenTile tile_;
 
-  // Of the point in hand.
+  // For the point in hand.
   std::vector<std::uint64_t> index_;
   std::vector<double> parameters_;  // SI
   std::vector<double> values_;      // of the variables

@@ -22,7 +22,7 @@ std::vector<MotionQuantity> quantities_called(const Study& study, const OutputCh
   }
   if (!found.empty()) return found;
   throw study.source.error_at(rules::unknown_name, name.position,
-                              "[output]: quantities: there is no \"{}\" of a motion{}", name.text,
+                              "[output]: quantities: a motion has no quantity \"{}\"{}", name.text,
                               hint_of_unmatched(name.text, known));
 }
 

@@ -111,8 +111,10 @@ std::vector<results::Variable> row_variables(const Study& study, std::size_t fre
     add(name + "_resonance_frequency", of_frequency, "frequency at which " + name + " moves most");
     add(name + "_resonance_amplitude", std::string(mechanics::coordinate_unit(study.network, mass, "m")),
         "amplitude of " + name + " at the reference order there");
-    add(name + "_half_power_low", of_frequency, "below it, where the amplitude is 1/sqrt(2) of that");
-    add(name + "_half_power_high", of_frequency, "above it, where the amplitude is 1/sqrt(2) of that");
+    add(name + "_half_power_low", of_frequency,
+        "frequency below it at which the amplitude is 1/sqrt(2) of that");
+    add(name + "_half_power_high", of_frequency,
+        "frequency above it at which the amplitude is 1/sqrt(2) of that");
     add(name + "_half_power_damping", "1", "(high - low) / (2 resonance frequency)");
   }
   return variables;

@@ -70,7 +70,8 @@ class StatisticsMaking {
   }
 
  private:
-  // The points of one tile beside the samples. A slot is one quantity at one of them, with all its samples.
+  // The points of one tile apart from the axis of samples. A slot is one quantity at one of them, with all
+  // its samples.
   void take(const MapBox& column, GroupBesideSamples::Chunk& chunk) {
     const std::size_t points = column.points(), slots = points * variables_.size();
     const std::size_t together = slots_together(slots, samples_), each = numbers_of_scatter(plan_);
@@ -102,8 +103,8 @@ class StatisticsMaking {
     }
   }
 
-  // The samples of a tile: offset in it = (outer * count + sample) * inner + i, the point beside the samples
-  // = outer * inner + i.
+  // The samples of a tile: offset in it = (outer * count + sample) * inner + i, the point apart from the
+  // samples = outer * inner + i.
   void copy(const MapBox& box, std::size_t slot, std::size_t place) {
     std::uint64_t inner = 1;
     for (std::size_t d = along_ + 1; d < box.count.size(); ++d) inner *= box.count[d];
@@ -171,7 +172,7 @@ std::vector<results::Variable> statistics_variables(const MapPlan& plan) {
     }
     variables.push_back({.name = of.name + "_samples",
                          .unit = "1",
-                         .long_name = fmt::format("samples with a value of {}", of.long_name),
+                         .long_name = fmt::format("number of samples with a value of {}", of.long_name),
                          .type = results::Type::int32});
   }
   return variables;

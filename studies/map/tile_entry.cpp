@@ -17,7 +17,7 @@ class EntryReading {
   bool at_end() const { return bytes_.empty(); }
   std::uint64_t number() { return engine::get_little_endian<std::uint64_t>(take(word).data()); }
   std::span<const std::byte> take(std::size_t size) {
-    if (size > bytes_.size()) throw engine::BadEntry("the record of a tile is shorter than it says");
+    if (size > bytes_.size()) throw engine::BadEntry("the record of a tile is shorter than its header says");
     const auto taken = bytes_.first(size);
     bytes_ = bytes_.subspan(size);
     return taken;

@@ -73,7 +73,7 @@ class TornadoMaking {
   }
 
  private:
-  // The variables at a point beside the samples, into row_.
+  // The variables at a point apart from the samples, into row_.
   void solve(const std::vector<std::uint64_t>& index) {
     const Study& study = plan_.study;
     const std::size_t n = uncertain_.parameters.size();

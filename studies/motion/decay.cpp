@@ -23,7 +23,7 @@ using transient::DecayEnd, transient::Extremum, transient::FreeDecay;
 std::string ending(const Study& study, const FreeDecay& decay) {
   const char* seconds = study.dimensionless ? "" : " s";
   const std::string left =
-      fmt::format("the energy norm of its distance from rest is {:.3g} of the first", decay.remainder);
+      fmt::format("the energy norm of its distance from rest is {:.3g} of the initial one", decay.remainder);
   switch (decay.end) {
     case DecayEnd::at_rest:
       if (decay.stop_time == 0.0) return "at rest from the start";
@@ -34,14 +34,13 @@ std::string ending(const Study& study, const FreeDecay& decay) {
       // With less than critical damping friction stops it in the end, where it passes its rest by less than
       // rounding.
       return fmt::format(
-          "creeps towards its rest, or stops there within rounding; followed to {:.6g}{}, where {}",
+          "creeps towards its rest position, or stops there within rounding; followed to {:.6g}{}, where {}",
           decay.duration, seconds, left);
     case DecayEnd::decayed:
       return fmt::format("never stops; after {:.6g}{} {}", decay.duration, seconds, left);
     case DecayEnd::cut_off:
-      return fmt::format(
-          "still moving after {:.6g}{}; {}{}", decay.duration, seconds, left,
-          study.decay()->duration ? "" : "\nit is followed no further unless [decay] has a duration");
+      return fmt::format("still moving after {:.6g}{}; {}{}", decay.duration, seconds, left,
+                         study.decay()->duration ? "" : "\nto follow it further, give [decay] a duration");
     case DecayEnd::failed:
       break;
   }

@@ -127,7 +127,7 @@ std::vector<MeasuredColumn> chosen(const Study& study, std::vector<MeasuredColum
                        suggestion(name, known));
     }
     if (std::count(names.begin(), names.end(), name) > 1)
-      throw StudyError(rules::given_twice, "--columns: \"{}\" is asked for twice", name);
+      throw StudyError(rules::given_twice, "--columns: \"{}\" is given twice", name);
     columns.push_back(all[static_cast<std::size_t>(place - known.begin())]);
   }
   return columns;

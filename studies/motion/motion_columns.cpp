@@ -49,11 +49,10 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
     const mechanics::Element& element = study_.network.elements[e];
     if (!mechanics::kind_of(element).dissipates || element.parts == 0) continue;
     const std::string& name = element.name;
-    add(name + "_dissipated", "J", "energy dissipated by " + name + " until then", "time",
-        samples.dissipated[e]);
+    add(name + "_dissipated", "J", "energy dissipated so far by " + name, "time", samples.dissipated[e]);
   }
   if (mechanics::has_structural_damping(study_.network))
-    add("damping_dissipated", "J", "energy dissipated by the damping of the structure until then", "time",
+    add("damping_dissipated", "J", "energy dissipated so far by the damping of the structure", "time",
         samples.dissipated.back());
 }
 

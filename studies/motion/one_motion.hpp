@@ -19,7 +19,7 @@ namespace frahm::studies {
 double stated(const Study& study, const StudyValue& value);
 
 // The numbers of the network as the study states them. In a decay hysteretic_omega is its
-// reference_frequency, or else the lowest undamped natural frequency. Throws StudyError for a network that
+// reference_frequency, otherwise the lowest undamped natural frequency. Throws StudyError for a network that
 // cannot move.
 mechanics::NetworkValues motion_values(const Study& study);
 

@@ -103,8 +103,8 @@ transient::ForcedOptions forced_options(const Study& study, std::span<const doub
     options.run_up = {at(*motion.sweep_to), at(*motion.sweep_rate)};
     if (options.run_up.to == options.from) {
       throw study.source.error_at(rules::wrong_order, motion.sweep_to->position,
-                                  "{}: is the frequency at which the motion begins; leave out "
-                                  "sweep_to and sweep_rate for one frequency",
+                                  "{}: is also the frequency at which the motion begins; for one frequency "
+                                  "leave out sweep_to and sweep_rate",
                                   motion.sweep_to->where);
     }
     options.duration = std::abs(options.run_up.to - options.from) / options.run_up.rate;
@@ -141,7 +141,7 @@ ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) 
   }
 }
 
-// Of what takes every mass: [m], or [rad] where all rotate.
+// For what takes every mass: [m], or [rad] where all rotate.
 static std::string_view unit_of_all(const Study& study) {
   std::size_t i = 0;
   while (mechanics::rotates(study.network, i)) ++i;
@@ -154,9 +154,10 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
   add_driving_records(study, columns);
   if (study.transient()->sweep_to) {
     columns.add_frequencies("frequency", "frequency of the excitation", "time", motion.frequency);
-    columns.add_number("discretisation_error", unit_of_all(study),
-                       "largest change of any displacement when the stairs of the run-up were last halved",
-                       motion.discretisation_error);
+    columns.add_number(
+        "discretisation_error", unit_of_all(study),
+        "largest change of any displacement when the frequency steps of the run-up were last halved",
+        motion.discretisation_error);
   }
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
     const std::string& name = mechanics::coordinate_name(study.network, i);
@@ -213,8 +214,8 @@ void print_transient(const Study& study, const ForcedMotion& motion, std::ostrea
   if (!study.transient()->sweep_to) return;
   const std::string unit = !si ? "" : common.empty() ? " m or rad" : fmt::format(" {}", common);
   fmt::print(out,
-             "the run-up's frequency on {} stairs: no displacement changes by more than {:.2g}{} with half "
-             "as many\n",
+             "the run-up's frequency rises in {} steps: no displacement changes by more than {:.2g}{} with "
+             "half as many\n",
              motion.stairs, motion.discretisation_error, unit);
 }
 

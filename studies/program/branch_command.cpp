@@ -45,7 +45,8 @@ std::size_t parameter_along(const Study& study, const std::string& name) {
   }
   if (!study.parameters.list[*found].is_number()) {
     throw StudyError(rules::computed_parameter,
-                     "--along {}: it is computed from others; a branch goes along a number", name);
+                     "--along {}: it is computed from other parameters; a branch needs one that is a number",
+                     name);
   }
   return *found;
 }
@@ -56,7 +57,7 @@ bool is_result(const std::filesystem::path& output) {
 
 void check_options(const Study& study, const BranchCommandOptions& options) {
   if (study.kind() != StudyKind::sweep) {
-    throw StudyError(rules::other_kind, "{}: {} has no branches; they are those of a sweep's responses",
+    throw StudyError(rules::other_kind, "{}: {} has no branches; only the responses of a sweep have them",
                      study.source.name, kind_noun(study.kind()));
   }
   refuse_smooth_laws(study, "a branch");
@@ -65,10 +66,10 @@ void check_options(const Study& study, const BranchCommandOptions& options) {
                      "--output \"-\": the special points go to standard output; name a file");
   }
   if (options.fresh && !(options.output && is_result(*options.output)))
-    throw StudyError(rules::wrong_option, "--fresh: belongs to a result, --output FILE.h5");
+    throw StudyError(rules::wrong_option, "--fresh: it needs a result, --output FILE.h5");
 }
 
-// An end of the range [SI]: as the option says, else that of the parameter's axis.
+// An end of the range [SI]: as the option says, otherwise that of the parameter's axis.
 double end_of_range(const Study& study, std::size_t parameter, const char* option,
                     const std::optional<std::string>& given, bool is_upper) {
   const std::string& name = study.parameters.list[parameter].name;
@@ -78,10 +79,12 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
     const auto [least, most] = std::ranges::minmax_element(axis.si_values);
     return is_upper ? *most : *least;
   }
-  throw StudyError(rules::wrong_option, "--along {}: it is no axis of the study, so give {}", name, option);
+  throw StudyError(rules::wrong_option, "--along {}: it is not an axis of the study, so give {}", name,
+                   option);
 }
 
-// Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.
+// Where the first response is searched [SI]: where --at puts the parameter, otherwise at the start of the
+// range.
 double start_of(const Study& study, std::size_t parameter, const BranchCommandOptions& options, double low,
                 double high) {
   double start = low;
@@ -95,7 +98,7 @@ double start_of(const Study& study, std::size_t parameter, const BranchCommandOp
                    spoken_text(study, parameter, low), spoken_text(study, parameter, high));
 }
 
-// A line that tells how far the branch is, on a terminal.
+// A line that says how far the branch is, on a terminal.
 class Counter {
  public:
   Counter(const Study& study, std::size_t parameter, engine::ProgressStyle style)
@@ -151,7 +154,7 @@ void check_place(const BranchCommandOptions& options) {
     check_output_is_not_input(*options.output, options.study);
 }
 
-// Where a branch begins: the axes beside it, what --at gives and the parameter followed, by their names.
+// Where a branch begins: the axes next to it, what --at gives and the parameter followed, by their names.
 // parameters: SI.
 std::string beginning_of(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::span<const double> parameters) {
@@ -191,11 +194,11 @@ std::string exact_course(const Study& study, std::size_t along, std::span<const 
                      wanted.multiple, begin);
 }
 
-// Of the same physics as the map of its study, for other points.  parameters: SI, of the branch.
+// For the same physics as the map of its study, for other points.  parameters: SI, of the branch.
 StudyPlan plan_of_branch(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::vector<double> parameters, const periodic::BranchWanted& wanted) {
   const std::vector<periodic::Quantity> recorded = output_quantities(study);
-  const auto variables = output_variables(study, recorded);  // of a comparison too, behind these
+  const auto variables = output_variables(study, recorded);  // of a comparison too, after these
   std::vector<std::string> names;
   for (std::size_t q = 0; q < recorded.size(); ++q) names.push_back(variables[q].name);
   parameters[along] = wanted.start;

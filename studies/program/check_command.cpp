@@ -55,7 +55,7 @@ std::string about_seconds(double seconds) {
   return seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds);
 }
 
-// What a result holds of a variable or an axis beside its numbers: name, units, place in the file [bytes].
+// What a result holds of a variable or an axis next to its numbers: name, units, place in the file [bytes].
 constexpr double bytes_of_variable = 5e3;
 
 // A thread computes whole tiles, so that some threads may wait for the last.

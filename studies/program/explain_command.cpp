@@ -32,7 +32,8 @@ const Meaning exit_codes[] = {
      "exit code: finished, but some points failed or have no periodic response; they are marked in the file"},
     {"4", "exit code: stopped, by a signal or the time budget; the same command resumes"},
     {"5",
-     "exit code: refused to mix results of different studies; nothing was changed. Another -o, or --fresh"},
+     "exit code: refused to mix results of different studies; nothing was changed. Use another -o, or "
+     "--fresh"},
     {"6",
      "exit code: a file or stream could not be read or written, a file is in the way of an output, or memory "
      "ran out"},
@@ -42,46 +43,45 @@ const Meaning exit_codes[] = {
     {"some_failed",
      "outcome of a run in Python: exit code 3, finished, but some points failed; they are marked in the "
      "file"},
-    {"stopped", "outcome of a run in Python: exit code 4, by a signal or the time budget"},
+    {"stopped", "outcome of a run in Python: exit code 4, stopped by a signal or the time budget"},
     {"not_converged", "outcome of a run in Python: exit code 7; the best so far is in the file"}};
 
 // What is no key of the readers, and no unit of UDUNITS.
 const Meaning further_meanings[] = {
     {"repeat",
-     "repeat in any [[table]]: { i = [1, 60] } makes a table for each i, and in "
-     "its texts {i}, {i-1} and {i+1} "
-     "are numbers; with a step [3, 60, 3]; of two indices every pair"},
-    {"deg", "deg: no unit of a study: a degree is written degree"}};
+     "repeat in any [[table]]: { i = [1, 60] } makes a table for each i, and in its texts {i}, {i-1} and "
+     "{i+1} are numbers; [3, 60, 3] has a step of 3; two indices make a table for every pair"},
+    {"deg", "deg: not a unit of a study; write degree"}};
 
 const Meaning flag_words[] = {
-    {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
+    {"not_computed", "status or regime: no value here, because it was not asked for, or not reached"},
     {"ok",
-     "status: a periodic response was found, with its accuracy beside it (residual, error_bound); without an "
-     "error_bound how many digits are right is not known, and frahm point tells why"},
+     "status: a periodic response was found; residual and error_bound give its accuracy. Without an "
+     "error_bound it is not known how many digits are right, and frahm point says why"},
     {"grazing",
-     "status: a contact's velocity or force only touches its limit: the response is right, its derivative "
-     "does "
-     "not exist there"},
+     "status: a contact's velocity or force only touches its limit: the response is right, but its "
+     "derivative does not exist there"},
     {"unbounded",
      "status: an undamped resonance that friction cannot hold: no periodic response exists (it grows for "
      "ever)"},
-    {"failed", "status: no response was found; frahm point STUDY --at ... tells the reason"},
+    {"failed", "status: no response was found; frahm point STUDY --at ... prints the reason"},
     {"several",
-     "status: more than one stable response was found, of which one is told; [orbits] show chooses which"},
+     "status: more than one stable response was found, and one of them is reported; [orbits] show chooses "
+     "which"},
     {"not_periodic",
      "status: no stable response was found among the multiples of the period that were tried "
      "([orbits] most_multiple)"},
     {"converged",
-     "outcome of a tuning or a fit: it meets its tolerances; of a tuning those of the certificate gap and of "
-     "the KKT residual"},
+     "outcome of a tuning or a fit: it meets its tolerances; for a tuning, those of the certificate gap and "
+     "of the KKT residual"},
     {"not_converged",
-     "outcome of a tuning or a fit: it does not meet its tolerances; the best found is told"},
+     "outcome of a tuning or a fit: it does not meet its tolerances; the best found is reported"},
     {"infeasible",
-     "outcome of a tuning: no design met the limits ([[constraint]]); the one told breaks them least, and "
-     "`violation` says by how much"},
+     "outcome of a tuning: no design met the limits ([[constraint]]); the one reported breaks them least, "
+     "and `violation` says by how much"},
     {"unbounded", "outcome of a tuning: the response has no bound at some frequency of the band"},
-    {"failed", "outcome of a tuning: the response could not be computed; the reason is told beside it"},
-    {"stopped", "outcome of a tuning: by a signal or the time budget; the same command goes on"},
+    {"failed", "outcome of a tuning: the response could not be computed; the reason is given with it"},
+    {"stopped", "outcome of a tuning: stopped by a signal or the time budget; the same command resumes"},
     {"no_friction", "regime of a friction element: it has no friction force here, F = 0"},
     {"non_stop", "regime of a friction element: it slides all the time, turning at single instants"},
     {"one_stop", "regime of a friction element: it stops once or twice in a period of the excitation"},
@@ -130,7 +130,7 @@ std::string text_of(const periodic::QuantityRow& row) {
   return text;
 }
 
-// Of the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
+// For the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
 std::vector<std::string> quantities_called(const std::string& word) {
   std::size_t longest = 0;
   for (const auto& row : periodic::quantity_table()) {
@@ -155,14 +155,14 @@ std::string written_range(mechanics::Range range) {
   return "";
 }
 
-// "stiffness = k [N/m], of what turns [N m/rad], >= 0".
+// "stiffness = k [N/m], for a rotation [N m/rad], >= 0".
 std::string text_of(const mechanics::ValueKey& value, bool is_optional) {
   std::string text = value.key;
   if (*value.symbol) text += fmt::format(" = {}", value.symbol);
   const Quantity along = element_quantity(value.dimension, false),
                  turning = element_quantity(value.dimension, true);
   text += fmt::format(" [{}]", written_si_unit(along));
-  if (turning != along) text += fmt::format(", of what turns [{}]", written_si_unit(turning));
+  if (turning != along) text += fmt::format(", for a rotation [{}]", written_si_unit(turning));
   return text + fmt::format(", {}{}", written_range(value.range), is_optional ? "; may be left out" : "");
 }
 
@@ -242,10 +242,10 @@ std::vector<std::string> units_called(const std::string& word) {
           unit_behind(quantity), factor == unit.scale ? "" : ", as it counts cycles", usual_units(quantity)));
     }
     if (found.empty())
-      found.push_back(
-          fmt::format("{}: unit of {}, which no value of a study is by itself", word, dimension_name(unit)));
+      found.push_back(fmt::format("{}: unit of {}; no value of a study has this dimension by itself", word,
+                                  dimension_name(unit)));
     if (word == "g")
-      found.emplace_back("g: in an [[excitation.record]] of accelerations the same as gravity");
+      found.emplace_back("g: the same as gravity, in an [[excitation.record]] of accelerations");
   } catch (const UnitError&) {  // it is none
   }
   return found;
@@ -302,9 +302,8 @@ int explain_command(const std::string& word, std::ostream& out) {
   if (found.empty()) found = units_called(word);
   if (found.empty())
     throw StudyError(rules::unknown_name,
-                     "explain: \"{}\" is no key, type, choice, quantity, variable of results, unit, status, "
-                     "regime, outcome or "
-                     "exit code{}",
+                     "explain: \"{}\" is not a key, type, choice, quantity, variable of results, unit, "
+                     "status, regime, outcome or exit code{}",
                      word, suggestion(word, words_of_studies()));
   for (const std::string& text : found) out << text << '\n';
   return exit_code::done;

@@ -14,7 +14,7 @@
 #include "studies/provenance/provenance.hpp"
 #include "studies/provenance/study_plan.hpp"
 
-// Common to all runs that save their tiles in shard logs beside the output.
+// Common to all runs that save their tiles in shard logs next to the output.
 namespace frahm::studies {
 
 // The effort of a run.
@@ -38,7 +38,7 @@ struct LoggedWork {
   std::function<int(const Effort&)> tell_made;  // prints a file just made
 };
 
-// Computes the missing tiles of a plan, saves them in shard logs beside the output, then makes the file.
+// Computes the missing tiles of a plan, saves them in shard logs next to the output, then makes the file.
 // Returns the exit code. Throws engine::ResumeRefused, engine::Locked, engine::IoError, StudyError.
 int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run, const StudyPlan& plan,
                 const LoggedWork& work, std::ostream& out);

@@ -68,7 +68,7 @@ std::string csv(const Study& study, const transient::ForcedMotion& motion) {
 
 void refuse_options_of_orbits(const PointOptions& options) {
   const auto refuse = [](const char* option) {
-    throw StudyError(rules::wrong_option, "{}: belongs to a periodic response, and the point is a motion",
+    throw StudyError(rules::wrong_option, "{}: it needs a periodic response, but the point is a motion",
                      option);
   };
   if (options.gradient) refuse("--gradient");

@@ -33,7 +33,7 @@ void require_node() {
   if (version.found) return;
   throw StudyError(
       rules::not_installed,
-      "--figures: needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
+      "--figures: it needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
 }
 
 // A folder within that of the figures, in which they are drawn before any is put in its place. It exists only

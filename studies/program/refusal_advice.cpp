@@ -26,10 +26,9 @@ std::string lines_of_changes(const std::vector<std::string>& changes) {
 std::string refusal_advice(const std::vector<std::string>& changes, const std::string& advice) {
   std::string text = lines_of_changes(changes);
   if (!text.empty()) text = "what changed:\n" + text;
-  return text + (advice.empty()
-                     ? "it is not replaced unasked: name another file with -o, or discard what is there "
-                       "with --fresh"
-                     : advice);
+  return text + (advice.empty() ? "it is not replaced without --fresh: name another file with -o, or discard "
+                                  "this one with --fresh"
+                                : advice);
 }
 
 void refuse_another_result(const std::filesystem::path& output, const StudyPlan& plan) {

@@ -83,7 +83,7 @@ std::vector<results::Column> motion_facts(const Study& study) {
   return facts;
 }
 
-// The page calls them signals beside the masses, whose quantities they share.
+// The page calls them signals next to the masses, whose quantities they share.
 std::vector<results::Text> names_of_signals(const Study& study) {
   std::vector<std::string> names;
   for (const mechanics::Signal& signal : study.network.signals) names.push_back(signal.name);
@@ -117,7 +117,8 @@ bool is_nonlinear(const mechanics::Network& network) {
   });
 }
 
-// "force of 100 N on main", "motion of base, 0.0127 m"; where the amplitude follows the band it is told so.
+// "force of 100 N on main", "motion of base, 0.0127 m"; where the amplitude follows the band it is reported
+// so.
 std::string component_text(const Study& study, std::size_t k, double at_start, double at_end) {
   const mechanics::Network& network = study.network;
   const mechanics::Excitation& each = network.excitations[k];

@@ -7,7 +7,7 @@
 
 namespace frahm::studies {
 
-// A variable of result files that is no quantity of a response (FORMAT.md tells more).
+// A variable of result files that is no quantity of a response (see FORMAT.md).
 struct ResultWord {
   const char* name;  // "*_detuning": of any name before it
   const char* of;    // where it is: "tuning"

@@ -35,7 +35,8 @@ transient::Watch watch_for_stop(const engine::StopRequest& stop) {
 
 void refuse_sharing(const RunCommandOptions& options, const Study& study) {
   if (options.run.shard.count <= 1) return;
-  throw StudyError(rules::other_kind, "{}: {} is one piece of work, which an array of tasks cannot share",
+  throw StudyError(rules::other_kind,
+                   "{}: {} is a single piece of work, which an array of tasks cannot share",
                    study.source.name, kind_noun(study.kind()));
 }
 
@@ -88,7 +89,7 @@ int compute(const StudyPlan& plan, const RunFacts& facts, const std::filesystem:
     case StudyKind::tune:
       break;
   }
-  throw std::logic_error(fmt::format("{} is no one piece of work", kind_noun(study.kind())));
+  throw std::logic_error(fmt::format("{} is not a single piece of work", kind_noun(study.kind())));
 }
 
 }  // namespace
@@ -112,7 +113,8 @@ int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out
                                    options.run.called_off);
     code = compute(plan, facts, output, watch_for_stop(stop), out);
   } catch (const Stopped& stopped) {
-    fmt::print(std::cerr, "{}: nothing is kept of one piece of work, which begins anew\n", stopped.reason);
+    fmt::print(std::cerr, "{}: nothing is kept of a single piece of work, which starts again\n",
+               stopped.reason);
     return exit_code::stopped;
   }
   fmt::print(out, "\n{}\n", output.string());

@@ -29,12 +29,12 @@ std::string path_of(const StudyKey& key) {
   return *key.section ? std::string(key.section) + "." + key.key : key.key;
 }
 
-// Of a list of tables.
+// For a list of tables.
 Json repetition_schema() {
   const Json number = {{"type", "integer"}, {"minimum", -1'000'000}, {"maximum", 1'000'000}};
   const Json range = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 3}};
   return {{"type", "object"},
-          {"description", "writes the table out for each: { i = [1, 60] }"},
+          {"description", "makes a table for each value of the index: { i = [1, 60] }"},
           {"additionalProperties", range},
           {"minProperties", 1}};
 }

@@ -103,7 +103,7 @@ void refuse_foreign_file(const std::filesystem::path& path, const std::filesyste
   refuse_link(path);
   const auto file = engine::File::open_if_present(path);
   if (!file || is_note(path) || file->holds_only_zeros() || has_log_of(output, plan)) return;
-  throw engine::IoError(path, "is there already and is no note of frahm; remove or rename it");
+  throw engine::IoError(path, "exists already and is not a note of frahm; remove or rename it");
 }
 
 // Other shards may be writing the same note at this moment: each renames its complete file. Where two
@@ -122,7 +122,7 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   }
 }
 
-// The study of a note. If the note was moved with its tables and logs, the tables are beside the note and no
+// The study of a note. If the note was moved with its tables and logs, the tables are next to the note and no
 // longer at the study's old path.
 Study study_of_note(const StudyNote& note, const std::filesystem::path& path) {
   try {
@@ -191,13 +191,13 @@ std::optional<EarlierResult> source_of_logs(const std::filesystem::path& output,
 
 void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engine::LogHeader& header) {
   if (plan.log_header() == header) return;
-  throw engine::IoError(noted.note,
-                        "the study kept here no longer gives what the logs were made from: a table it reads, "
-                        "or this program, has changed");
+  throw engine::IoError(
+      noted.note,
+      "the study kept here no longer matches the logs: a table that it reads, or this program, has changed");
 }
 
 void remove_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
-  std::error_code ignored;  // a note left behind is harmless
+  std::error_code ignored;  // a note that is left is harmless
   std::filesystem::remove(note_path(output, plan.log_header().fingerprint), ignored);
 }
 

@@ -47,7 +47,8 @@ void carry_out(const AssemblyStage& stage, const AssemblyOptions& options) {
 
 void remove_used_logs(const AssemblyOptions& options) {
   for (const std::string& in_use : engine::remove_free_logs(options.logs))
-    fmt::print(std::cerr, "note: {} is made of all logs; one is left: {}\n", options.output.string(), in_use);
+    fmt::print(std::cerr, "note: {} is made from all logs; one log remains: {}\n", options.output.string(),
+               in_use);
 }
 
 }  // namespace frahm::studies

@@ -21,7 +21,7 @@ namespace frahm::studies {
 namespace {
 
 constexpr double rounding_of_units = 1e-14;  // relative: of a value times the factor of its unit
-constexpr std::size_t longest_list = 60;     // bytes of a list that is told whole
+constexpr std::size_t longest_list = 60;     // bytes of a list that is reported whole
 
 // A single value; `si` where it is a number, of a unit where it has one.
 struct Item {
@@ -87,7 +87,7 @@ bool is_in_unit_of_table(const StudyKey* key) {
   return key->form == KeyForm::number || key->form == KeyForm::numbers;
 }
 
-// By what tables of a list are told apart.
+// What distinguishes the tables of a list.
 std::string name_of(const TomlValue& table, const std::string& section, std::size_t number) {
   for (const char* naming : {"name", "parameter", "node", "on", "quantity"}) {
     if (text_in(table, naming))
@@ -279,7 +279,7 @@ namespace {
 template <class IsSame>
 std::vector<std::string> changes_of_facts(const Facts& before, const Facts& after, const IsSame& same) {
   std::vector<std::string> changes;
-  const auto tell = [&](const std::string& line) {  // a table that is new or gone is told once
+  const auto tell = [&](const std::string& line) {  // a table that is new or gone is reported once
     if (std::ranges::find(changes, line) == changes.end()) changes.push_back(line);
   };
   for (const Fact& fact : before.list) {
@@ -332,7 +332,7 @@ std::vector<std::string> rounding_changes(const TomlValue& kept, const TomlValue
 }
 
 std::string change_of_unit(const std::string& name, const std::string& before, const std::string& after) {
-  return fmt::format("{}: {}, now {}: the same but for rounding", name, before, after);
+  return fmt::format("{}: {}, now {}: the same apart from rounding", name, before, after);
 }
 
 }  // namespace frahm::studies

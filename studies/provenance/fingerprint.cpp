@@ -67,7 +67,7 @@ void add_parameters(const Study& study, CanonicalText& text) {
   }
 }
 
-// Of an element with a law of friction the number beside its force, which is a part of its identity.
+// For an element with a law of friction the number next to its force, which is a part of its identity.
 const StudyValue& second_number(mechanics::FrictionLaw law, const StudyValues& values, std::size_t element) {
   switch (law) {
     case mechanics::FrictionLaw::exact:
@@ -92,7 +92,7 @@ std::string direction_text(const mechanics::Element& element) {
   return text;
 }
 
-// Of the numbers of a matrix.
+// For the numbers of a matrix.
 std::string digest(const Eigen::MatrixXd& matrix) {
   const XXH128_hash_t hash =
       XXH3_128bits(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
@@ -225,7 +225,7 @@ void add_tuning(const Study& study, CanonicalText& text) {
   }
 }
 
-// The content of a tuning's file beside its optimum, and the number of starts.
+// The content of a tuning's file next to its optimum, and the number of starts.
 void add_assessment(const Study& study, CanonicalText& text) {
   if (!study.tune()) return;
   const auto names = study.parameters.names();

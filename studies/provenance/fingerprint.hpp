@@ -19,7 +19,7 @@ struct Tiling {
 // quantities: names of those recorded.
 // physics: network, definitions and values of the parameters (of those on an axis only that they are on one),
 // contents of tables, quantities, precision, version of the solver: what Use::physics says of a key. grid:
-// the names and SI values of the axes, the coordinates beside them and the tiles, a motion's duration and
+// the names and SI values of the axes, the coordinates next to them and the tiles, a motion's duration and
 // samples, or a tuning's starts, rules and columns: Use::grid and Use::shown. Titles and what is said on
 // pages (Use::label), comments, names of files, the order of the parameters, and the unit in which one and
 // the same number is given change neither.
@@ -30,7 +30,7 @@ engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
 engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity);
 
 // The fingerprint of one branch of a sweep.  course: the parameter followed, its range, all that a branch
-// depends on beside the physics of the study.
+// depends on in addition to the physics of the study.
 engine::Fingerprint branch_fingerprint(const engine::Fingerprint& study, const std::string& course);
 
 // A hash that identifies one result, made from its texts: among them the study, who computed it and when, and

@@ -40,8 +40,8 @@ void require_result(const std::filesystem::path& path) {
   if (std::filesystem::exists(path)) return refuse_study(path);
   if (engine::find_logs(path).empty()) throw engine::IoError(path, "there is no such file");
   throw engine::IoError(path,
-                        "the run that makes it is not finished (frahm status tells how far it is): frahm run "
-                        "completes it, frahm merge --partial makes a file of what there is of a map");
+                        "the run that makes it is not finished (frahm status shows how far it is): frahm run "
+                        "completes it, frahm merge --partial makes a file of the finished part of a map");
 }
 
 ResultKind kind_of(const results::MapReader& result) {
@@ -59,8 +59,8 @@ bool is_part(const results::MapReader& map) {
 void refuse_link(const std::filesystem::path& output) {
   std::error_code ignored;  // what is not there is no link
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(output, ignored)))
-    throw engine::IoError(
-        output, "is a link, which would be replaced and not what it points to; name the file itself");
+    throw engine::IoError(output,
+                          "is a link, which would be replaced instead of its target; name the file itself");
 }
 
 void require_folder_of(const std::filesystem::path& output) {
@@ -71,7 +71,7 @@ void require_folder_of(const std::filesystem::path& output) {
   if (found.type() == std::filesystem::file_type::not_found)
     throw engine::IoError(output, fmt::format("there is no folder {}: {}", folder.string(), words(ENOENT)));
   if (std::filesystem::exists(found) && !std::filesystem::is_directory(found))
-    throw engine::IoError(output, fmt::format("{} is no folder: {}", folder.string(), words(ENOTDIR)));
+    throw engine::IoError(output, fmt::format("{} is not a folder: {}", folder.string(), words(ENOTDIR)));
 }
 
 namespace {
@@ -89,7 +89,8 @@ bool begins_as_result(const std::filesystem::path& path) {
 
 void refuse_name_of_study(const std::filesystem::path& output) {
   if (output.extension() == ".toml")
-    throw StudyError(rules::wrong_file, "{}: has the name of a study; name this output .h5", output.string());
+    throw StudyError(rules::wrong_file,
+                     "{}: has the name of a study; the name of this output must end in .h5", output.string());
 }
 
 }  // namespace
@@ -103,22 +104,23 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
     return refuse_link(output);
   }
   if (std::filesystem::equivalent(output, study, error))
-    throw engine::IoError(output, "is the study itself; give another -o");
+    throw engine::IoError(output, "is the study itself; name another file with -o");
   refuse_name_of_study(output);
   if (!std::filesystem::is_regular_file(output, error))
-    throw engine::IoError(output,
-                          "is not a regular file, and a result is not written there; give another -o");
+    throw engine::IoError(
+        output, "is not a regular file, so a result is not written there; name another file with -o");
   refuse_link(output);
   try {
     const results::MapReader result(output);
   } catch (const results::StoreError& reason) {
     if (!begins_as_result(output))
       throw engine::IoError(
-          output, fmt::format("is not a result of frahm; give another -o, or remove it ({})", reason.what()));
+          output, fmt::format("is not a result of frahm; name another file with -o, or remove it ({})",
+                              reason.what()));
     if (!fresh.value_or(false))
       throw engine::IoError(
-          output, fmt::format("is a result that is damaged, or of a later version ({}); {}", reason.what(),
-                              fresh ? "--fresh computes it anew" : "remove it"));
+          output, fmt::format("is a result that is damaged or has a later version ({}); {}", reason.what(),
+                              fresh ? "--fresh computes it again" : "remove it"));
   }
 }
 
@@ -134,7 +136,7 @@ void refuse_damage(const results::MapReader& result, const std::string& advice) 
 results::MapReader undamaged_result(const std::filesystem::path& path) {
   require_result(path);
   results::MapReader result(path);
-  refuse_damage(result, "frahm run --fresh computes it anew");
+  refuse_damage(result, "frahm run --fresh computes it again");
   return result;
 }
 

@@ -18,7 +18,7 @@ namespace frahm::studies {
 
 std::string utc_now() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(now));  // a time_point would be told in local time
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(now));  // a time_point would be in local time
 }
 
 results::MapLayout file_layout(const StudyPlan& plan, const RunFacts& run) {
@@ -42,15 +42,13 @@ std::string search_text(const Study& study, const periodic::OrbitsWanted& wanted
   using enum periodic::OrbitsWanted::Show;
   if (wanted.is_slow_sweep())
     return fmt::format(
-        "a sweep of the frequency {}, from rest at its first point of a row; at each point the stable "
-        "response "
-        "of the point before is continued, and where it ends the motion is followed to another, multiples of "
-        "the period up to {}. Others were not searched",
+        "a sweep of the frequency {}, from rest at the first point of a row; at each point the stable "
+        "response of the point before is continued, and where it ends the motion is followed to another, "
+        "with multiples of the period up to {}. Other responses were not searched for",
         wanted.show == up ? "up" : "down", wanted.most_multiple);
   return fmt::format(
       "{} starts and the responses of the points before and after on the row, within a tile, multiples of "
-      "the "
-      "period up to {}; told is the {} peak of {}. Others may have been missed",
+      "the period up to {}; the response with the {} peak of {} is reported. Others may have been missed",
       wanted.starts, wanted.most_multiple, wanted.show == largest ? "largest" : "smallest",
       study.network.masses.front());
 }
@@ -60,9 +58,9 @@ std::string searched_orbits(const Study& study) {
   periodic::OrbitsWanted wanted = study.orbits_wanted();
   if (study.tune() && tuning::may_take_several_orbits(study.network))
     return fmt::format(
-        "at each frequency: {} starts and the responses found near it, multiples of the period up to {}; the "
-        "worst counts, and where none is stable and periodic the worst of the motions over 64 periods. "
-        "Others may have been missed",
+        "at each frequency: {} starts and the responses found near it, with multiples of the period up to "
+        "{}; the worst counts, and where none is stable and periodic, the worst of the motions over 64 "
+        "periods. Others may have been missed",
         wanted.starts, wanted.most_multiple);
   if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
   std::string text = "where the laws are not monotone: " + search_text(study, wanted);

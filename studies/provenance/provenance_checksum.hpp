@@ -10,7 +10,7 @@ namespace frahm::studies {
 // The text of /provenance with the checksum of its other texts, which HDF5 keeps without one.
 inline constexpr const char* checksum_text = "checksum";
 
-// Of all texts but that of the checksum itself, whatever their order: eight hexadecimal digits.
+// For all texts but that of the checksum itself, whatever their order: eight hexadecimal digits.
 std::string checksum_of(std::vector<results::Text> texts);
 
 // Throws results::StoreError where the texts of /provenance, among them that of the study, are not those that

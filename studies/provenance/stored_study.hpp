@@ -14,8 +14,8 @@ struct StoredStudy {
   std::vector<Assignment> overrides;  // of its run
 };
 
-// Reads the text in the result. The study's tables are searched beside the result; measurements are not read.
-// file: of `result`.  Throws StudyError, results::StoreError.
+// Reads the text in the result. The study's tables are searched next to the result; measurements are not
+// read. file: of `result`.  Throws StudyError, results::StoreError.
 StoredStudy read_stored_study(const results::MapReader& result, const std::filesystem::path& file);
 
 }  // namespace frahm::studies

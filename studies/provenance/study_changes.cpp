@@ -48,7 +48,7 @@ TomlValue document_of(const Study& study) {
   return document;
 }
 
-// Of two studies that are the same but for rounding: the axes that have another unit, and other numbers.
+// For two studies that are the same apart from rounding: the axes that have another unit, and other numbers.
 std::vector<std::string> changed_roundings(const Study& kept, const Study& now,
                                            const TomlValue& kept_document, const TomlValue& document) {
   std::vector<std::string> changes;

@@ -14,7 +14,7 @@ namespace frahm::studies {
 // kg, now 90 kg". All that their documents say; where these say the same, that it is a file or the program.
 std::vector<std::string> study_changes(const Study& kept, const Study& now);
 
-// The same of a result and what is to replace it, a branch with its course; of the study none where the
+// The same for a result and what is to replace it, a branch with its course; of the study none where the
 // result has no study that can be read.  file: the result's own.
 std::vector<std::string> changes_since(const results::MapReader& result, const std::filesystem::path& file,
                                        const StudyPlan& now);

@@ -13,16 +13,15 @@ namespace {
 
 std::string overruled_by_measurements(const IdentifyChoice& choice, std::size_t parameter) {
   for (const IdentifiedParameter& fitted : choice.parameters) {
-    if (fitted.parameter == parameter)
-      return "is identified; the value from which a fit starts is that of [parameters]";
+    if (fitted.parameter == parameter) return "is identified; set the start value of the fit in [parameters]";
   }
   for (const FixedEstimate& fixed : choice.fixed) {
-    if (fixed.parameter == parameter) return "has its value from fixed_from; leave that file out";
+    if (fixed.parameter == parameter) return "has its value from fixed_from; leave out that file";
   }
   for (const RecordChoice& record : choice.records) {
     for (const Assignment& assignment : record.set) {
       if (assignment.parameter == parameter)
-        return fmt::format("is set by the record \"{}\"; change that", record.name);
+        return fmt::format("is set by the record \"{}\"; change the record", record.name);
     }
   }
   return "";
@@ -44,7 +43,7 @@ std::string overruled_by(const Study& study, std::size_t parameter) {
     for (const Assignment& assignment : scenario.set) {
       if (assignment.parameter == parameter)
         return study.tune()->drawn.empty()
-                   ? fmt::format("is set by the scenario \"{}\"; change that", scenario.name)
+                   ? fmt::format("is set by the scenario \"{}\"; change the scenario", scenario.name)
                    : "scatters over samples; change their distribution";
     }
   }

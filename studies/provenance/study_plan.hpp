@@ -26,7 +26,7 @@ struct StudyPlan {
   std::string course = {};  // of a branch only: what is followed from where to where, a line for each
 
   // The header of its shard logs. Points taken over differ in their last digits from points computed here, so
-  // the logs of a growing map differ from those of the same map computed anew or grown from another result.
+  // the logs of a growing map differ from those of the same map computed again or grown from another result.
   engine::LogHeader log_header() const { return header_of_logs(grown_from ? grown_from->identity : ""); }
   // The same for a map grown from the result with this identity; empty: from none.
   engine::LogHeader header_of_logs(const std::string& identity) const;

@@ -54,11 +54,11 @@ std::string why_without(StudyKind kind, const std::string& section) {
   const bool of_a_map = section == "axis" || section == "coordinate" || is_output || section == "orbits";
   const bool one_motion = kind == StudyKind::decay;
   if (kind == StudyKind::tune && is_output)
-    return ": it records its optimum, with the numbers of [[column]] beside it; what lies between masses is "
-           "an [[output.signal]], and other quantities are those of the study that frahm export --sweep "
-           "writes of the optimum";
+    return ": it records its optimum, with the numbers of [[column]]; use an [[output.signal]] for what lies "
+           "between masses, and for other quantities the study of the optimum that frahm export --sweep "
+           "writes";
   if (one_motion && is_output)
-    return ": it computes one motion, not a map, and records it whole: `samples` of [decay] asks for its "
+    return ": it computes one motion, not a map, and records all of it: give `samples` in [decay] for its "
            "history, an [[output.signal]] for what lies between masses";
   if (kind == StudyKind::tune && of_a_map)
     return ": the band of [tune] and the bounds of [[design]] are its ranges";
@@ -112,7 +112,7 @@ void read_heading(const TomlValue& root, Study& study) {
   if (kind == StudyKind::identify) study.choice = IdentifyChoice{};
   study.title = section.text_or("title", "");
   if (study.title.find('\n') != std::string::npos)
-    section.fail(rules::not_text, "title", "has more than one line; a title is one");
+    section.fail(rules::not_text, "title", "has more than one line; a title must be one line");
   study.dimensionless = section.choice("units") == "dimensionless";
 }
 
@@ -136,9 +136,8 @@ std::vector<std::size_t> read_by_matrices(const Study& study) {
 void check_motion_without_axes(const Study& study, const TomlValue& root) {
   const std::string why = ": without an [[axis]] it computes one motion, not a map";
   const std::string way =
-      "; the motion is recorded whole, with an [[output.signal]] for what lies between masses, and an "
-      "[[axis]] "
-      "with one value makes it a map of one point";
+      "; the whole motion is recorded; use an [[output.signal]] for what lies between masses, or an [[axis]] "
+      "with one value for a map of one point";
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (entry.key == "output" && entry.value.as<TomlTable>())
       check_output_has_signals_alone(study, entry, why + way);

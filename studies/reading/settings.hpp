@@ -12,7 +12,7 @@ namespace frahm::studies {
 
 // The study with the values of --set (name=value each; none: unchanged). Throws StudyError.
 Study read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set);
-// The same of a study that was read. option: what messages call the place of the values.
+// The same for a study that was read. option: what messages call the place of the values.
 Study with_settings(Study study, const std::vector<std::string>& set, std::string_view option = "--set");
 
 // SI values of all parameters at one point: those of --at (name=value each), the rest as the study states

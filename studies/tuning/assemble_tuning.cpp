@@ -22,7 +22,7 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
   if (missing.empty() || options.partial) return;
   throw engine::IoError(
       options.output,
-      fmt::format("{} of its {} starts are in no shard log yet{}; --partial makes a file of the rest",
+      fmt::format("{} of its {} starts are in no shard log yet{}; --partial makes a file of the others",
                   missing.size(), starts, missing_tasks_text(options.logs, missing)));
 }
 

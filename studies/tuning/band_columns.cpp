@@ -66,15 +66,15 @@ void add_schedules(const TuningAbout& about, GroupColumns& columns) {
     }
     columns.add(name + "_schedule", unit, "schedule of " + name, about.band, schedule);
     if (rules[i])
-      columns.add(name + "_rule", unit, name + " by the rule beside the schedule, within the bounds",
-                  about.band, rule);
+      columns.add(name + "_rule", unit, name + " by the rule for the schedule, within the bounds", about.band,
+                  rule);
   }
 }
 
 void add_column(const TuningAbout& about, const ColumnChoice& column, GroupColumns& columns) {
   std::vector<double> values = along_band(about, of_formula(column.value));
   for (double& value : values) value /= column.si_factor;
-  columns.add(column.name, column.unit, "beside the schedule: " + column.name, about.band, values);
+  columns.add(column.name, column.unit, "with the schedule: " + column.name, about.band, values);
   std::vector<double> flags;
   for (const double value : values) flags.push_back(range_flag(column, value));
   columns.add_flag(column.name + "_range", "whether " + column.name + " is within its range", about.band,

@@ -19,7 +19,7 @@ using engine::BadEntry;
 using tuning::Optimum;
 
 void require(bool holds, const char* what) {
-  if (!holds) throw BadEntry(fmt::format("{} is none of this study", what));
+  if (!holds) throw BadEntry(fmt::format("{} does not belong to this study", what));
 }
 
 // Within the bounds but for rounding, or NaN where there is none.

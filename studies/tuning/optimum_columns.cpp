@@ -30,18 +30,21 @@ void add_numbers(const TuningAbout& about, GroupColumns& columns) {
     columns.add_number("constant_objective", unit, "objective of the best constant design",
                        about.optimum.constant_objective);
   if (about.tune.has_schedule())
-    columns.add_number("path_bound", unit,
-                       "no schedule with these constants has a lower worst peak, as far as a grid shows",
-                       about.optimum.path_bound);
+    columns.add_number(
+        "path_bound", unit,
+        "lower bound of the worst peak of every schedule with these constants, as far as a grid shows",
+        about.optimum.path_bound);
   columns.add_number("certificate_gap", "1",
-                     "(objective - bound) / objective: what no active frequency has seen",
+                     "(objective - bound) / objective: how far the worst peak over the band exceeds the "
+                     "bound from the active frequencies",
                      about.optimum.certificate_gap);
   if (const auto width = about.least_width_seen())
     columns.add_number("certificate_width", about.band_unit,
-                       "along the band; a peak that is narrower may be missed by the certificate", *width);
+                       "width along the band; the certificate may miss a peak that is narrower", *width);
   columns.add_number("kkt_residual", "1", "residual of the conditions of a local optimum",
                      about.optimum.kkt_residual);
-  columns.add_number("tolerance", "1", "of the certificate gap and the KKT residual", about.tune.tolerance);
+  columns.add_number("tolerance", "1", "tolerance of the certificate gap and the KKT residual",
+                     about.tune.tolerance);
   columns.add_number("violation", "1", "largest violation of a limit, relative", about.optimum.violation);
   columns.add_flag("outcome", "how the tuning ended", "", outcome_words(),
                    outcome_flags({about.optimum.outcome}));
@@ -51,9 +54,9 @@ void add_numbers(const TuningAbout& about, GroupColumns& columns) {
                        about.optimum.trade_off / about.tune.trade_off->unit.si_factor);
   columns.add_count("iterations", "iterations of the optimiser", "",
                     {static_cast<double>(about.optimum.iterations)});
-  columns.add("orbits", "1", "periodic responses that it took", "",
+  columns.add("orbits", "1", "number of periodic responses that it took", "",
               {static_cast<double>(about.optimum.orbits)}, Type::int64);
-  columns.add("gradients", "1", "derivatives of responses that it took", "",
+  columns.add("gradients", "1", "number of derivatives of responses that it took", "",
               {static_cast<double>(about.optimum.gradients)}, Type::int64);
   columns.add_count("best_start", "the start that this was found from", "",
                     {static_cast<double>(about.result.starts[about.result.best.back()].number)});
@@ -112,7 +115,7 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
   columns.add_number(name + "_constant", unit, name + " of the best constant design", constant / factor);
 }
 
-// Of a tuning over records: which record each peak is of, and what it was before.
+// For a tuning over records: which record each peak is of, and what it was before.
 void add_records_of_peaks(const TuningAbout& about, GroupColumns& columns) {
   std::vector<double> records, before;
   for (std::size_t i = 0; i < about.optimum.peaks.size(); ++i) {
@@ -120,7 +123,8 @@ void add_records_of_peaks(const TuningAbout& about, GroupColumns& columns) {
     before.push_back(i < about.result.before.size() ? about.result.before[i].value : kNone);
   }
   columns.add_count("peak_record", "record, from 0", "peak", records);
-  columns.add("peak_before", quantity_unit(about.study), "peak of the study as it is stated", "peak", before);
+  columns.add("peak_before", quantity_unit(about.study), "peak of the design that the study states", "peak",
+              before);
 }
 
 void add_peaks(const TuningAbout& about, GroupColumns& columns) {
@@ -145,7 +149,8 @@ void add_peaks(const TuningAbout& about, GroupColumns& columns) {
     for (const tuning::Peak& peak : about.optimum.peaks)
       slopes.push_back(i < peak.sensitivity.size() ? peak.sensitivity[i] * factor : kNone);
     columns.add(about.designs[i].name + "_sensitivity", per_unit(unit, about.designs[i].unit),
-                "derivative of the maximum by " + about.designs[i].name + " as a whole", "peak", slopes);
+                "derivative of the maximum with respect to " + about.designs[i].name + " as a whole", "peak",
+                slopes);
   }
 }
 
@@ -192,9 +197,9 @@ void add_search(const TuningAbout& about, GroupColumns& columns) {
   const auto add = [&](const char* name, const char* what, std::size_t count) {
     columns.add_count(name, what, "", {static_cast<double>(count)});
   };
-  add("searched_points", "points of the band at the optimum, of all scenarios", searched.points);
-  add("several_points", "of these, points with more than one stable response found", searched.several);
-  add("not_periodic_points", "of these, points where no stable periodic response was found",
+  add("searched_points", "points of the band at the optimum, in all scenarios", searched.points);
+  add("several_points", "number of these points with more than one stable response found", searched.several);
+  add("not_periodic_points", "number of these points where no stable periodic response was found",
       searched.not_periodic);
 }
 
@@ -213,7 +218,7 @@ void add_rounds(const TuningAbout& about, GroupColumns& columns) {
   columns.add_count("round_iterations", "iterations of a round", "round", iterations);
   columns.add("round_bound", unit, "objective over the active frequencies", "round", bound);
   columns.add("round_worst", unit, "true objective of that design", "round", worst);
-  columns.add("round_violation", "1", "of the limits, relative", "round", violation);
+  columns.add("round_violation", "1", "violation of the limits, relative", "round", violation);
 }
 
 void add_starts(const TuningAbout& about, GroupColumns& columns) {
@@ -236,7 +241,7 @@ void add_starts(const TuningAbout& about, GroupColumns& columns) {
   add_designs(about, "start_", "found from a start", "start", optima, columns);
 }
 
-// Of a tuning that began at a map: what of the box it saw, and what its low cells led to.
+// For a tuning that began at a map: what of the box it saw, and what its low cells led to.
 void add_map(const TuningAbout& about, GroupColumns& columns) {
   const tuning::DesignsSeen& seen = about.optimum.seen;
   if (seen.cells == 0) return;

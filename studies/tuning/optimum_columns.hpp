@@ -21,7 +21,7 @@ std::vector<results::Text> optimum_texts(const Study& study, const TuningResult&
 // Throws StudyError if a name chosen in the study is already another name in the record.
 void check_names_in_file(const Study& study);
 
-// The limits of a tuning with that of the trade-off behind them: names in the record, units.
+// The limits of a tuning with that of the trade-off after them: names in the record, units.
 struct NamedLimit {
   std::string name;  // of the quantity; with _2, _3 where it has several limits
   UsualUnit unit;

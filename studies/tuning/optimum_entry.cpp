@@ -65,7 +65,9 @@ class Reading {
   }
 
  private:
-  [[noreturn]] static void fail() { throw engine::BadEntry("the record of a start is shorter than it says"); }
+  [[noreturn]] static void fail() {
+    throw engine::BadEntry("the record of a start is shorter than its header says");
+  }
   std::uint64_t next() {
     std::uint64_t number = 0;
     take(number);
@@ -119,7 +121,7 @@ std::vector<Optimum> decode_optima(std::span<const std::byte> bytes) {
   std::vector<Optimum> optima;
   Reading reading(bytes);
   reading.take(optima);
-  if (!reading.at_end()) throw engine::BadEntry("the record of a start is longer than it says");
+  if (!reading.at_end()) throw engine::BadEntry("the record of a start is longer than its header says");
   return optima;
 }
 

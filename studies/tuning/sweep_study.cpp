@@ -181,7 +181,7 @@ SweepStudy run_up_study(const StoredTuning& stored, const std::string& stem) {
   entry_of(std::get<TomlTable>(entry_of(sections, "parameters")->value.content),
            study.parameters.list[band->parameter].name)
       ->value = toml_parameter(study, band->parameter, band->range.from);
-  // Of a tuning's output there are the signals alone, which a motion has too.
+  // For a tuning's output there are the signals alone, which a motion has too.
   std::erase_if(sections, [](const TomlEntry& entry) { return entry.key == "orbits"; });
   sections.push_back({"transient", {}, {{}, run_up_of(study, *band)}});
   TomlArray axes;

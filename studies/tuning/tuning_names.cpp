@@ -153,9 +153,9 @@ void add_noise(const Study& study, std::vector<results::Text>& texts) {
 std::string not_proved(const Study& study) {
   if (study.tune()->peaks || !tuning::may_take_several_orbits(study.network)) return "";
   return fmt::format(
-      "at each frequency that was looked at, the worst is that of the stable responses found from {} starts "
-      "and from responses near it, and where none was found that of the motions followed; it is not proved "
-      "that none was missed, nor that the response does not jump between these frequencies",
+      "at each frequency examined, the worst is that of the stable responses found from {} starts and from "
+      "responses near it, and where none was found, that of the motions followed; it is not proved that none "
+      "was missed, nor that the response does not jump between these frequencies",
       study.orbits_wanted().starts);
 }
 
@@ -191,8 +191,8 @@ void check_names_in_file(const Study& study) {
     results::check(front_columns(study, example));
   } catch (const std::invalid_argument& error) {
     throw StudyError(rules::name_taken,
-                     "{}: the record of this tuning would need one name twice; rename a "
-                     "parameter, a column or a scenario: {}",
+                     "{}: the record of this tuning would need the same name twice; rename a parameter, a "
+                     "column or a scenario: {}",
                      study.source.name, error.what());
   }
 }

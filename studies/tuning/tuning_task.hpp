@@ -9,7 +9,7 @@ namespace frahm::studies {
 // The solver's task for a study of kind "tune". Its functions may be called from several threads at once.
 // study: must outlive the task.
 tuning::Task tuning_task(const Study& study);
-// The same of a tuning over records.
+// The same for a tuning over records.
 tuning::RecordTask record_task(const Study& study);
 
 }  // namespace frahm::studies

@@ -452,7 +452,7 @@ TEST_CASE("where no multiple that is tried has a stable orbit, the point is not 
   CHECK(map["coexisting"] == std::vector<double>{1, -1, -1, -1});
   CHECK(map["unsettled"] == std::vector<double>{0, 8, 8, 8});  // recorded though it is not listed
   CHECK_THAT(outcome.out,
-             Catch::Contains("at 3 of 4 points 24 of 24 starts came to no stable response of up to 1"));
+             Catch::Contains("at 3 of 4 points 24 of 24 starts reached no stable response of up to 1"));
   CHECK(std::isnan(map["main_peak"][1]));
 }
 
@@ -481,7 +481,7 @@ quantities = ["main_peak"]
   const auto point = runs::frahm({"point", study});
   CHECK_THAT(point.out,
              Catch::Contains("one of a continuum: 1 slider of jenkins or iwan elements never slips") &&
-                 Catch::Contains("z(T/2) = -z(0); the error bound is of this one"));
+                 Catch::Contains("z(T/2) = -z(0); the error bound refers to this one"));
   CHECK_THAT(runs::frahm({"point", study, "--at", "F=0.1"}).out, !Catch::Contains("continuum: "));
 }
 

@@ -292,7 +292,7 @@ TEST_CASE(
     work += weight * h * 0.4 * omega * omega * std::cos(phase) * history.velocity[0][i];
     rubbed += weight * h * 0.05 * std::abs(history.velocity[0][i]);
   }
-  constexpr double kStairs = 1e-5;  // the motion is known to some 1e-6 of its peak
+  constexpr double kStairs = 1e-5;  // the motion is known to about 1e-6 of its peak
   CHECK_THAT(motion.energy.input, WithinRel(work, kStairs));
   CHECK_THAT(motion.energy.dissipated[1], WithinRel(rubbed, kStairs));
 }
@@ -325,7 +325,7 @@ TEST_CASE(
     work -= weight * h * m * -history.acceleration[0][i] * y_1;
     damped += weight * h * c * (v - y_1) * (v - y_1);
   }
-  constexpr double kStairs = 1e-5;  // the motion is known to some 1e-6 of its peak
+  constexpr double kStairs = 1e-5;  // the motion is known to about 1e-6 of its peak
   CHECK_THAT(motion.energy.input, WithinRel(work, kStairs));
   CHECK_THAT(motion.energy.dissipated[1], WithinRel(damped, kStairs));
 }

@@ -99,7 +99,7 @@ TEST_CASE(
 // x'' + 2 zeta x' + x = p(omega) cos(phi), phi = from t + alpha t^2/2, by Boost.odeint alone.
 struct SweptOscillator {
   double zeta, from, alpha;
-  bool unbalance;  // p = omega^2, else 1
+  bool unbalance;  // p = omega^2, otherwise 1
 
   std::vector<double> at(const std::vector<double>& times, std::vector<double> x) const {
     namespace odeint = boost::numeric::odeint;

@@ -138,7 +138,7 @@ TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double b
 // Leaves the response at the worst of those found, by the larger side of a peak. Returns whether there is
 // one.
 bool TunedResponse::tell_worst(int responses) {
-  constexpr int kMotion = 64;  // periods that what is told of a motion takes
+  constexpr int kMotion = 64;  // periods that what is reported of a motion takes
   std::vector<double> values(value_.size());
   double worst = kNone;
   int last = -1, reported = -1;

@@ -186,17 +186,17 @@ nlopt_result Program::run(std::vector<double>& x, int most_evaluations) {
 const char* reason_of(nlopt_result result) {
   switch (result) {
     case NLOPT_MAXEVAL_REACHED:
-      return "the evaluations allowed were used up";
+      return "the allowed evaluations were used up";
     case NLOPT_FTOL_REACHED:
     case NLOPT_XTOL_REACHED:
     case NLOPT_SUCCESS:
       return "the steps became too small";
     case NLOPT_ROUNDOFF_LIMITED:
-      return "rounding leaves no step that gains";
+      return "rounding leaves no step that improves the objective";
     case NLOPT_OUT_OF_MEMORY:
-      return "NLopt has not enough memory";
+      return "NLopt does not have enough memory";
     default:
-      return "NLopt finds no step";
+      return "NLopt found no step";
   }
 }
 

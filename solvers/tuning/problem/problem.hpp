@@ -93,7 +93,7 @@ struct Iteration {
 struct Solution {
   Ending ending = Ending::failed;
   std::string reason;          // a sentence: why the solve ended
-  std::vector<double> x;       // size of variables: the optimum, else the best feasible point met
+  std::vector<double> x;       // size of variables: the optimum, otherwise the best feasible point met
   double objective = 0.0;      // at x
   double kkt_residual = 0.0;   // of kkt.hpp, by the same computation for every solver; NaN: no gradient at x
   double infeasibility = 0.0;  // largest violation of a constraint, relative to its scale

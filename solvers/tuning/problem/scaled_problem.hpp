@@ -65,7 +65,7 @@ class ScaledProblem {
   struct Best {
     std::vector<double> x;  // in the problem's units, as the objective
     double objective = 0.0, infeasibility = 0.0;
-    // Of the KKT conditions; NaN where it was not looked at.
+    // For the KKT conditions; NaN where it was not looked at.
     double residual = kNone;
   };
   double residual() const;

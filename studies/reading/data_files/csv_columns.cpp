@@ -61,8 +61,8 @@ void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
     if (!of_node || form.find(name)) continue;
     const std::string hint = suggestion(name, known);
     reading.fail_at_file(rules::unknown_name,
-                         "{}:{}: \"{}\" is of no node of the study{}{} To leave it out, name the others in "
-                         "columns = {{ ... }}",
+                         "{}:{}: \"{}\" does not belong to a node of the study{}{} To leave it out, name the "
+                         "others in columns = {{ ... }}",
                          reading.result.file, reading.result.header, name, hint,
                          hint.ends_with('?') ? "" : ".");
   }
@@ -72,7 +72,7 @@ void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
 std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   if (reading.header.empty()) {
     reading.fail_at_file(rules::no_header,
-                         "{}: has no header; say which column is what: columns = {{ {} = 1, ... }}",
+                         "{}: has no header; assign the columns by number: columns = {{ {} = 1, ... }}",
                          reading.result.file, reading.forms.front().roles.front().name);
   }
   std::vector<std::string> found;
@@ -111,7 +111,7 @@ void check_order(const CsvReading& reading, const WantedColumn& column,
   for (const WantedColumn& other : wanted) {
     if (other.role == column.role || other.role != name) continue;
     reading.fail(rules::unknown_column, column.position,
-                 "{}: column {} of {} is headed \"{}\"; number and header disagree", column.where(),
+                 "{}: column {} of {} has the header \"{}\"; number and header disagree", column.where(),
                  *column.number, reading.result.file, name);
   }
 }

@@ -54,11 +54,11 @@ EarlierEstimates read_earlier(const std::filesystem::path& path, const std::stri
   try {
     const results::MapReader reader(path);
     if (!reader.has_group(identification_group))
-      throw StudyError(rules::wrong_file, "{}: is the result of no identification", file);
+      throw StudyError(rules::wrong_file, "{}: is not the result of an identification", file);
     const Columns columns = reader.columns(identification_group);
     const results::Column* outcome = find_number(columns, "outcome");
     if (outcome && outcome->values.front() != converged_outcome)
-      throw StudyError(rules::wrong_file, "{}: its fit did not converge, and fixes nothing", file);
+      throw StudyError(rules::wrong_file, "{}: its fit did not converge, so it cannot fix values", file);
     earlier = estimates_among(columns, file);
   } catch (const results::StoreError& error) {
     throw StudyError(rules::wrong_file, "{}", error.what());

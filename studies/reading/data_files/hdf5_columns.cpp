@@ -29,7 +29,7 @@ void keep_rows(const ColumnReading& reading, RawRecord& record, const std::vecto
   for (std::size_t i = 0; i < record.columns.front().values.size(); ++i) {
     if (!doubtful.empty() && doubtful[i] != 0.0 && doubtful[i] != 1.0)
       reading.fail_at_file(rules::wrong_row,
-                           "{}: value {} of the doubtful rows' marks is {}, neither 0 nor 1", record.file,
+                           "{}: value {} of the marks of doubtful rows is {}; must be 0 or 1", record.file,
                            i + 1, doubtful[i]);
     if (doubtful.empty() || doubtful[i] == 0.0) record.rows.push_back(i + 1);
   }
@@ -47,15 +47,15 @@ void check_datasets(const ColumnReading& reading, const std::vector<double>& dou
   const RawColumn& first = record.columns.front();
   for (const RawColumn& column : record.columns) {
     if (column.values.size() != first.values.size())
-      reading.fail_at_file(rules::wrong_length,
-                           "{}: {} has {} values, but {} has {}; columns are of one length", record.file,
-                           column.called, column.values.size(), first.called, first.values.size());
+      reading.fail_at_file(
+          rules::wrong_length, "{}: {} has {} values, but {} has {}; columns must have the same length",
+          record.file, column.called, column.values.size(), first.called, first.values.size());
   }
   if (!doubtful.empty() && doubtful.size() != first.values.size())
-    reading.fail_at_file(rules::wrong_length,
-                         "{}: {} has {} values, but the doubtful rows are marked by {}; columns are of "
-                         "one length",
-                         record.file, first.called, first.values.size(), doubtful.size());
+    reading.fail_at_file(
+        rules::wrong_length,
+        "{}: {} has {} values, but the marks of doubtful rows have {}; columns must have the same length",
+        record.file, first.called, first.values.size(), doubtful.size());
 }
 
 void check_finite(const ColumnReading& reading) {
@@ -74,7 +74,7 @@ void check_path(const ColumnReading& reading, const WantedColumn& column) {
                  "columns: label: labels are read from CSV files only");
   if (column.number)
     reading.fail(rules::wrong_type, column.position,
-                 "{}: the path of a dataset is expected, such as \"transient/time\", found the number {}",
+                 "{}: expected the path of a dataset, such as \"transient/time\", found the number {}",
                  column.where(), *column.number);
 }
 
@@ -83,10 +83,9 @@ void check_path(const ColumnReading& reading, const WantedColumn& column) {
 RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path) {
   reading.result.has_lines = false;
   if (reading.wanted.empty() && !reading.record.find("columns"))
-    reading.record.fail_here(
-        rules::missing_key,
-        "the key \"columns\" is missing: of an HDF5 file it names the datasets, such as columns = {{ time = "
-        "\"transient/time\" }}");
+    reading.record.fail_here(rules::missing_key,
+                             "the key \"columns\" is missing: for an HDF5 file it names the datasets, such "
+                             "as columns = {{ time = \"transient/time\" }}");
   const std::vector<WantedColumn> wanted =
       reading.wanted.empty() ? read_wanted(reading.record, reading.forms) : reading.wanted;
   const RecordForm& form = form_of_wanted(reading.record, reading.forms, wanted);

@@ -19,8 +19,8 @@ Eigen::MatrixXd read_csv_matrix(const std::filesystem::path& path, const std::st
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::vector<std::string>& cells = rows[i].cells;
     if (cells.size() != columns)
-      throw StudyError(rules::wrong_row, "{}:{}: the row is of length {}, the first one of length {}", name,
-                       rows[i].line, cells.size(), columns);
+      throw StudyError(rules::wrong_row, "{}:{}: the row has length {}, but the first one has length {}",
+                       name, rows[i].line, cells.size(), columns);
     for (std::size_t j = 0; j < columns; ++j) {
       const auto value = cell_number(cells[j]);
       if (!value || !std::isfinite(*value))
@@ -52,11 +52,10 @@ Eigen::MatrixXd read_any(const std::filesystem::path& folder, const std::string&
   const std::filesystem::path path = folder / name;
   if (path.extension() == ".mtx") return read_matrix_market(path, name);
   if (path.extension() == ".csv") return read_csv_matrix(path, name);
-  throw StudyError(
-      rules::wrong_file,
-      "\"{}\" is no matrix; a matrix is in a file.mtx (Matrix Market), a file.csv or a dataset of "
-      "HDF5, file.h5:/path",
-      name);
+  throw StudyError(rules::wrong_file,
+                   "\"{}\" is not a matrix; a matrix is a file.mtx (Matrix Market), a file.csv or a dataset "
+                   "of HDF5, file.h5:/path",
+                   name);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ std::string read_header(Lines& lines) {
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (!header.starts_with("%%matrixmarket matrix "))
     lines.fail(rules::wrong_file,
-               "is no Matrix Market file: its first line does not begin with %%MatrixMarket matrix");
+               "is not a Matrix Market file: its first line does not begin with %%MatrixMarket matrix");
   for (const char* form : {"pattern", "complex"}) {
     if (header.find(form) != std::string::npos)
       lines.fail(rules::wrong_file, fmt::format("is a {} matrix; real numbers are needed", form));
@@ -156,7 +156,7 @@ Eigen::MatrixXd read_matrix_market(const std::filesystem::path& path, const std:
   if (dense == nullptr || dense->xtype != CHOLMOD_REAL) {
     cholmod_free_dense(&dense, &work.common);
     throw StudyError(rules::wrong_file,
-                     "{}: is no Matrix Market file: its form, sizes or numbers cannot be read", name);
+                     "{}: is not a Matrix Market file: its form, sizes or numbers cannot be read", name);
   }
   Eigen::MatrixXd matrix = copy_of(*dense);
   cholmod_free_dense(&dense, &work.common);

@@ -62,7 +62,7 @@ struct ColumnReading {
 // Throws StudyError for a file that cannot be read, and for columns that are missing or not numbers.
 RawRecord read_columns(ColumnReading reading, const std::filesystem::path& folder);
 
-// The columns of a record's `file`, chosen by the record's `columns`, else by headers that are names of
+// The columns of a record's `file`, chosen by the record's `columns`, otherwise by headers that are names of
 // roles.
 RawRecord read_columns(const TomlSection& record, const std::filesystem::path& folder,
                        const std::vector<RecordForm>& forms);

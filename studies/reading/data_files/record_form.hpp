@@ -39,8 +39,8 @@ std::vector<RecordForm> record_forms(const Study& study);
 // All names that a column may have in any form.
 std::vector<std::string> role_names(const std::vector<RecordForm>& forms);
 
-// The form of the columns found: the first whose required columns are all there, else the one with most of
-// them.
+// The form of the columns found: the first whose required columns are all there, otherwise the one with most
+// of them.
 const RecordForm& form_of(const std::vector<RecordForm>& forms, const std::vector<std::string>& found);
 
 // The required and the optional columns, in words: `time and displacement`.

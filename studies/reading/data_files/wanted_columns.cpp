@@ -26,7 +26,7 @@ WantedColumn read_one(const TomlSection& record, const TomlEntry& entry) {
   }
   if (*number < 1) {
     throw record.source().error_at(rules::out_of_range, entry.value.position,
-                                   "{}: {} is out of range: columns count from 1", where, *number);
+                                   "{}: {} is out of range: columns are counted from 1", where, *number);
   }
   wanted.number = static_cast<std::size_t>(*number);
   return wanted;
@@ -48,7 +48,7 @@ std::vector<WantedColumn> read_wanted(const TomlSection& record, const std::vect
   for (const TomlEntry& entry : *entries) {
     if (std::find(roles.begin(), roles.end(), entry.key) == roles.end()) {
       throw record.source().error_at(rules::unknown_name, entry.position,
-                                     "{}: columns: \"{}\" is no column that the method reads{}",
+                                     "{}: columns: \"{}\" is not a column that the method reads{}",
                                      record.where(), entry.key, suggestion(entry.key, roles));
     }
     wanted.push_back(read_one(record, entry));
@@ -70,8 +70,8 @@ const RecordForm& form_of_wanted(const TomlSection& record, const std::vector<Re
     const bool beside = each.role == doubtful_role || (each.role == label_role && !form.is_trace);
     if (form.find(each.role) || beside) continue;
     throw record.source().error_at(rules::key_without_use, each.position,
-                                   "{}: columns: \"{}\" does not go with {}", record.where(), each.role,
-                                   described(form));
+                                   "{}: columns: \"{}\" cannot be combined with {}", record.where(),
+                                   each.role, described(form));
   }
   return form;
 }

@@ -23,7 +23,7 @@ bool is_of_every_type(std::string_view key);
 
 // A form of a type by its other keys: a coulomb by its law, a spring by its stiffness or its table.
 struct ElementForm {
-  const char* decider = "";  // the key whose word tells the form, if one does
+  const char* decider = "";  // the key whose word gives the form, if one does
   const char* word = "";
   std::vector<std::string> needed{}, optional{};
 };

@@ -67,10 +67,9 @@ class Repetition {
   Indices indices_of(const TomlValue& repeat) const {
     const auto* table = repeat.as<TomlTable>();
     if (!table || table->empty())
-      throw source_.error_at(
-          rules::wrong_type, repeat.position,
-          "repeat: {}; an index and its range are expected, as in repeat = {{ i = [1, 60] }}",
-          described(repeat));
+      throw source_.error_at(rules::wrong_type, repeat.position,
+                             "repeat: {}; expected an index and its range, as in repeat = {{ i = [1, 60] }}",
+                             described(repeat));
     Indices indices;
     for (const TomlEntry& entry : *table) indices.push_back(index_of(entry));
     return indices;
@@ -80,11 +79,10 @@ class Repetition {
     const auto* range = entry.value.as<TomlArray>();
     const auto is_whole = [](const TomlValue& value) { return value.as<std::int64_t>() != nullptr; };
     if (!range || range->size() < 2 || range->size() > 3 || !std::ranges::all_of(*range, is_whole))
-      throw source_.error_at(
-          rules::wrong_type, entry.value.position,
-          "repeat: {}: first and last number are expected, and a step if it is not 1: [1, 60] "
-          "or [3, 60, 3]",
-          entry.key);
+      throw source_.error_at(rules::wrong_type, entry.value.position,
+                             "repeat: {}: expected the first and the last number, and a step if it is not 1: "
+                             "[1, 60] or [3, 60, 3]",
+                             entry.key);
     const auto number = [&](std::size_t i) { return *(*range)[i].as<std::int64_t>(); };
     Index index{entry.key, number(0), number(1), range->size() == 3 ? number(2) : 1, number(0)};
     constexpr std::int64_t largest = 1'000'000;
@@ -93,8 +91,8 @@ class Repetition {
     if (!is_range)
       throw source_.error_at(
           rules::out_of_range, entry.value.position,
-          "repeat: {}: {} to {} by steps of {} is no range: numbers rise, within a million", entry.key,
-          index.from, index.to, index.step);
+          "repeat: {}: {} to {} in steps of {} is not a range: numbers must rise and stay within a million",
+          entry.key, index.from, index.to, index.step);
     return index;
   }
 
@@ -155,8 +153,7 @@ class Repetition {
         for (const Index& index : indices) names.push_back("{" + index.name + "}");
         throw source_.error_at(
             rules::unknown_name, position,
-            "\"{}\": {{{}}} is no index of this repeat; write {}, or with a whole number added, as "
-            "in {{{}-1}}",
+            "\"{}\": {{{}}} is not an index of this repeat; write {}, or add a whole number, as in {{{}-1}}",
             text, inside, listed(names, " or "), indices.front().name);
       }
       result += std::to_string(*number);

@@ -8,7 +8,7 @@
 
 namespace frahm::studies {
 
-// What stands behind a key of a study. `value` is a number, an expression of parameters or { value, unit }.
+// What follows a key of a study. `value` is a number, an expression of parameters or { value, unit }.
 enum class KeyForm {
   value,
   values,       // a list of those
@@ -37,7 +37,7 @@ enum class KeyForm {
 // same numbers in other units change only how a result is written.
 enum class Use {
   physics,  // what is computed
-  grid,     // at which points, and what is computed beside them
+  grid,     // at which points, and what is computed next to them
   shown,    // what a finished result is compared with
   label,    // words and units of the file alone: a file with others gets them, and nothing is computed
   nowhere,  // nothing by itself, as a section whose keys count
@@ -61,7 +61,7 @@ struct Limits {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool above = false, below = false;  // least and most are none of them
-  bool or_another = false;            // beside them `another` is one
+  bool or_another = false;            // `another` is allowed too
   double another = 0.0;
 
   bool hold(double number) const;
@@ -94,9 +94,9 @@ struct Inside {
 };
 
 // A key of a section of a study file. The table of them is what the readers allow (TomlSection), what
-// `frahm schema` prints and what `frahm explain` tells.
+// `frahm schema` and `frahm explain` print.
 struct StudyKey {
-  // more: what is to be said beside, in any order.
+  // more: further properties, in any order.
   template <class... More>
   constexpr StudyKey(const char* in, const char* name, KeyForm what, Use changes, const char* what_it_means,
                      const More&... more)

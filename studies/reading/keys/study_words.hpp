@@ -17,7 +17,7 @@ inline constexpr StudyWord units[] = {{"SI", "values may have units, bare number
                                       {"dimensionless", "all values are plain numbers"}};
 
 inline constexpr StudyWord friction_laws[] = {  // in the order of FrictionLaw
-    {"exact", "F sgn(v) while it slides, and up to F, or static_force, at rest; solved exactly"},
+    {"exact", "F sgn(v) while it slides, up to F (or static_force) at rest; solved exactly"},
     {"arctan", "smooth: F (2/pi) arctan(slope v); integrated, an estimate"},
     {"stribeck", "smooth: the curve of `table`, force over speed; integrated, an estimate"}};
 
@@ -30,7 +30,7 @@ inline constexpr StudyWord slider_distributions[] = {
 
 inline constexpr StudyWord harmonic[] = {{"harmonic", "amplitude cos(order omega t + phase)"}};
 inline constexpr StudyWord profiles[] = {
-    harmonic[0], {"crank", "that of a slider on a rod, driven by a crank that turns with omega t + phase"}};
+    harmonic[0], {"crank", "motion of a slider on a rod, driven by a crank that turns with omega t + phase"}};
 
 inline constexpr StudyWord spacings[] = {{"linear", "in equal steps"}, {"log", "in equal ratios"}};
 
@@ -40,14 +40,15 @@ inline constexpr StudyWord interpolations[] = {  // in the order of transient::I
 
 inline constexpr StudyWord sequences[] = {  // in the order of samples::Sequence
     {"sobol", "Sobol's points, shifted at random: evenly over all parameters together"},
-    {"latin_hypercube", "of each parameter one in each of as many equally likely parts, at random"},
+    {"latin_hypercube",
+     "Latin hypercube: each parameter has one random value in each of as many equally likely parts"},
     {"random", "independent of each other"}};
 
 inline constexpr StudyWord distributions[] = {  // in the order of samples::Distribution::Kind
     {"normal", "by mean and deviation, or variation; cut off at lower and upper, if given"},
     {"lognormal", "its logarithm is normal; by median or mean, and deviation or variation"},
-    {"uniform", "equally likely from lower to upper"},
-    {"triangular", "from lower to upper, likeliest at mode"}};
+    {"uniform", "every value from lower to upper is equally likely"},
+    {"triangular", "from lower to upper, most likely at mode"}};
 
 inline constexpr StudyWord generators[] = {
     {"white", "white noise of the spectral density `intensity`"},
@@ -57,11 +58,11 @@ inline constexpr StudyWord envelopes[] = {
     {"jennings", "(t/rise)^2, then level, from level_end on falling by exp(-decay t)"},
     {"trapezoid", "t/rise, then level, from level_end on straight to 0"}};
 
-inline constexpr StudyWord sets_of_quantities[] = {{"standard", "those that most ask for"},
+inline constexpr StudyWord sets_of_quantities[] = {{"standard", "the quantities most often needed"},
                                                    {"all", "every quantity of the study"}};
 
 inline constexpr StudyWord precisions[] = {  // in the order of Precision
-    {"double", "eight bytes, digits beyond the known ones cleared"},
+    {"double", "eight bytes, with the digits beyond the known ones cleared"},
     {"single", "four bytes"},
     {"full", "eight bytes, every bit"}};
 
@@ -70,10 +71,10 @@ inline constexpr StudyWord paths[] = {
     {"general", "every orbit by shooting, as a check"}};
 
 inline constexpr StudyWord responses[] = {  // in the order of OrbitsWanted::Show
-    {"largest", "of several responses that of the largest motion"},
-    {"smallest", "of several responses that of the smallest motion"},
-    {"up", "the response met as the frequency rises"},
-    {"down", "the response met as the frequency falls"}};
+    {"largest", "of several responses, the one with the largest motion"},
+    {"smallest", "of several responses, the one with the smallest motion"},
+    {"up", "the response reached as the frequency rises"},
+    {"down", "the response reached as the frequency falls"}};
 
 inline constexpr StudyWord objectives[] = {
     {"minimax", "the worst value in the band", "band"},
@@ -83,9 +84,9 @@ inline constexpr StudyWord objectives[] = {
     {"mean_peak", "the mean of the peaks under the records", "records"}};
 
 inline constexpr StudyWord solvers[] = {
-    {"ipopt", "interior points, of Ipopt: for schedules of many knots"},
-    {"slsqp", "sequential quadratic programming, of NLopt: for constants and few knots"},
-    {"mma", "the method of moving asymptotes, of NLopt"}};
+    {"ipopt", "Ipopt's interior points: for schedules of many knots"},
+    {"slsqp", "NLopt's sequential quadratic programming: for constants and few knots"},
+    {"mma", "NLopt's method of moving asymptotes"}};
 
 inline constexpr StudyWord starts_of_tunings[] = {
     {"given", "from the study's own values"},
@@ -93,10 +94,10 @@ inline constexpr StudyWord starts_of_tunings[] = {
     {"nlopt", "from the end of a `global` search of the box; over a band"}};
 
 inline constexpr StudyWord global_searches[] = {
-    {"crs2", "controlled random search with local mutation, of NLopt"},
-    {"isres", "evolution with stochastic ranking, of NLopt"},
-    {"direct", "dividing rectangles, of NLopt"},
-    {"mlsl", "local searches from many starts, of NLopt"}};
+    {"crs2", "NLopt's controlled random search with local mutation"},
+    {"isres", "NLopt's evolution with stochastic ranking"},
+    {"direct", "NLopt's dividing rectangles"},
+    {"mlsl", "NLopt's local searches from many starts"}};
 
 inline constexpr StudyWord dominated[] = {{"constant", "the best constant in place of the schedule"}};
 

@@ -210,7 +210,7 @@ std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlV
   const auto* array = entry->value.as<TomlArray>();
   if (!array) {
     throw source.error_at(rules::wrong_type, entry->position,
-                          "write [[{}]] with two brackets, as there can be several; found {}", path,
+                          "write [[{}]] with two brackets, because there can be several; found {}", path,
                           described(entry->value));
   }
   for (const TomlValue& table : *array) tables.push_back(&table);

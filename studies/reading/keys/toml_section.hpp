@@ -86,7 +86,7 @@ bool is_number(const TomlValue& value);
 std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlValue& parent,
                                           const std::string& path);
 
-// The name of one of several tables in messages: `element "guide"` by the text of its naming key, else
+// The name of one of several tables in messages: `element "guide"` by the text of its naming key, otherwise
 // `[[element]] 3`. number: from 1.
 std::string label(const TomlValue& table, std::string_view kind, std::string_view naming_key,
                   std::string_view path, std::size_t number);

@@ -25,8 +25,8 @@ double read_bound(const TomlSection& section, const char* key, double si_factor,
 void check_bounds(const TomlSection& section, double lower, double upper) {
   if (lower <= upper) return;
   section.fail(rules::wrong_order, "upper",
-               "{} is below \"lower\" = {}; bounds go from the lower to the upper", section.number("upper"),
-               section.number("lower"));
+               "{} is below \"lower\" = {}; the upper bound must not be below the lower",
+               section.number("upper"), section.number("lower"));
 }
 
 std::size_t read_design_parameter(const TuneReading& reading, const TomlSection& section) {
@@ -36,11 +36,12 @@ std::size_t read_design_parameter(const TuneReading& reading, const TomlSection&
   const auto twice = std::find_if(designs.begin(), designs.end(),
                                   [&](const DesignChoice& other) { return other.parameter == parameter; });
   if (twice != designs.end())
-    section.fail(rules::given_twice, "parameter", "\"{}\" is a design parameter already (line {})", name,
+    section.fail(rules::given_twice, "parameter", "\"{}\" is already a design parameter (line {})", name,
                  twice->position.line);
   const auto& band = reading.choice.band;
   if (band && band->parameter == parameter)
-    section.fail(rules::key_without_use, "parameter", "\"{}\" runs over the band; it cannot be tuned", name);
+    section.fail(rules::key_without_use, "parameter", "\"{}\" runs over the band, so it cannot be tuned",
+                 name);
   if (!network_depends_on(reading.study, parameter))
     section.fail(rules::wrong_dependence, "parameter", "no value of the network depends on \"{}\"", name);
   return parameter;
@@ -65,11 +66,11 @@ std::vector<double> read_knots(const TomlSection& section, const BandChoice& ban
   const auto falls = std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>());
   if (falls != knots.end())
     section.fail(rules::wrong_order, "knots",
-                 "{} follows {}; knots rise from one end of the band to the other",
+                 "{} follows {}; knots must rise from one end of the band to the other",
                  falls[1] / band.unit.si_factor, falls[0] / band.unit.si_factor);
   if (knots.size() < 2 || knots.front() != band.range.from || knots.back() != band.range.to)
     section.fail(rules::wrong_order, "knots",
-                 "the first and the last knot are the ends of the band, {} and {}",
+                 "the first and the last knot must be the ends of the band, {} and {}",
                  band.range.from / band.unit.si_factor, band.range.to / band.unit.si_factor);
   return knots;
 }
@@ -78,18 +79,20 @@ std::vector<double> read_knots(const TomlSection& section, const BandChoice& ban
 // leap_place).
 void read_jumps(const TuneReading& reading, const TomlSection& section, DesignChoice& design) {
   if (std::ranges::any_of(reading.choice.designs, &DesignChoice::may_leap))
-    section.fail_here(rules::key_without_use, "another schedule jumps, which needs to be the only one");
+    section.fail_here(rules::key_without_use,
+                      "another schedule jumps, and a schedule that jumps must be the only one");
   if (!section.find("jumps")) return;
   design.may_leap = section.integer_or("jumps", 0) == 1;
   if (!design.may_leap) return;
   if (reading.choice.objective != tuning::Objective::minimax)
     section.fail(rules::key_without_use, "jumps",
-                 "needs objective = \"minimax\": the worst peak decides where a schedule leaps");
+                 "needs objective = \"minimax\": the worst peak decides where a schedule jumps");
   if (tuning::may_take_several_orbits(reading.study.network))
-    section.fail(rules::unfit_for_method, "jumps",
-                 "a system that may have several responses at one frequency has no grid to place a jump on");
+    section.fail(
+        rules::unfit_for_method, "jumps",
+        "a system that may have several responses at one frequency has no grid on which to place a jump");
   if (reading.choice.has_schedule())
-    section.fail(rules::key_without_use, "jumps", "needs the only schedule of the study");
+    section.fail(rules::key_without_use, "jumps", "needs this to be the only schedule of the study");
 }
 
 // max_slope is in the unit of the bounds over that of the band.
@@ -99,13 +102,13 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
   const auto& band = reading.choice.band;
   if (reading.choice.peaks)
     section.fail(rules::key_without_use, "schedule",
-                 "a tuning over records has no band to run over; leave the schedule out");
+                 "a tuning over records has no band for a schedule; leave out the schedule");
   if (reading.choice.objective == tuning::Objective::variance || !band)
     section.fail(rules::key_without_use, "schedule",
-                 "a variance is that of one system for all frequencies; leave the schedule out");
+                 "a variance belongs to one system for all frequencies; leave out the schedule");
   if (!(band->range.from < band->range.to))
     section.fail(rules::key_without_use, "schedule",
-                 "the band is a single frequency; leave the schedule out");
+                 "the band is a single frequency; leave out the schedule");
   const TomlSection schedule(reading.context.source, *value, fmt::format("{}: schedule", section.where()),
                              "design.schedule");
   design.knots = read_knots(schedule, *band);
@@ -135,7 +138,7 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
   if (section.find("rule")) {
     if (!design.is_scheduled())
       section.fail(rules::key_without_use, "rule",
-                   "is compared with a schedule, and this [[design]] has none");
+                   "is compared with a schedule, but this [[design]] has none");
     const Parameter& parameter = reading.study.parameters.list[design.parameter];
     design.rule = read_formula(reading, section, "rule", wanted_of_parameter(parameter));
   }
@@ -170,11 +173,11 @@ Assignment read_setting(const TuneReading& reading, const TomlSection& scenario,
                          [&](std::size_t parameter) -> std::string {
                            for (const DesignChoice& design : reading.choice.designs) {
                              if (design.parameter == parameter)
-                               return "it is tuned; a scenario cannot set it";
+                               return "it is tuned, so a scenario cannot set it";
                            }
                            const bool band =
                                reading.choice.band && reading.choice.band->parameter == parameter;
-                           return band ? "it runs over the band; a scenario cannot set it" : "";
+                           return band ? "it runs over the band, so a scenario cannot set it" : "";
                          });
 }
 
@@ -185,7 +188,8 @@ void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t num
   scenario.name = section.identifier("name");
   for (const ScenarioChoice& other : reading.choice.scenarios) {
     if (other.name == scenario.name)
-      section.fail(rules::name_taken, "name", "\"{}\" is the name of an earlier scenario", scenario.name);
+      section.fail(rules::name_taken, "name", "\"{}\" is already the name of an earlier scenario",
+                   scenario.name);
   }
   const TomlValue& set = section.require("set");
   const auto* entries = set.as<TomlTable>();
@@ -215,7 +219,7 @@ void read_column(TuneReading& reading, const TomlValue& table, std::size_t numbe
   check_bounds(section, column.lower, column.upper);
   if (!reading.choice.band)
     section.fail_here(rules::key_without_use,
-                      "a column lies beside the schedule over a band, and there is no band");
+                      "a column accompanies the schedule over a band, but there is no band");
   reading.choice.columns.push_back(std::move(column));
 }
 

@@ -27,7 +27,7 @@ void check_free_to_fix(const IdentifyReading& reading, const EarlierEstimates& e
     throw StudyError(rule, "{}: the estimate \"{}\" {}", earlier.file, earlier.names[i], problem);
   };
   for (const FixedEstimate& other : choice.fixed) {
-    if (other.parameter == parameter) fail(rules::given_twice, "stands in an earlier file of fixed_from too");
+    if (other.parameter == parameter) fail(rules::given_twice, "is also in an earlier file of fixed_from");
   }
   for (const RecordChoice& record : choice.records) {
     for (const Assignment& assignment : record.set) {
@@ -36,7 +36,7 @@ void check_free_to_fix(const IdentifyReading& reading, const EarlierEstimates& e
     }
   }
   if (!std::isfinite(earlier.values[i]))
-    fail(rules::wrong_file, "was not determined by its data and fixes nothing");
+    fail(rules::wrong_file, "was not determined by its data, so it cannot fix a value");
 }
 
 // An estimate of a file for a parameter that is not fitted again: index of the estimate, of the parameter.
@@ -60,12 +60,11 @@ std::vector<Taken> taken_from(const IdentifyReading& reading, const EarlierEstim
     if (parameters.list[i].is_number() && !is_fitted(reading.choice, i))
       open.push_back(parameters.list[i].name);
   }
-  throw StudyError(
-      rules::unknown_name,
-      "{}: none of its estimates is a number parameter of this study that is not fitted; it has {}, the "
-      "study {}",
-      earlier.file, earlier.names.empty() ? "none" : listed(earlier.names, " and "),
-      open.empty() ? "none" : listed(open, " and "));
+  throw StudyError(rules::unknown_name,
+                   "{}: none of its estimates is a parameter of this study that is a number and not fitted; "
+                   "it has {}, the study has {}",
+                   earlier.file, earlier.names.empty() ? "none" : listed(earlier.names, " and "),
+                   open.empty() ? "none" : listed(open, " and "));
 }
 
 // Estimates of different files are independent of each other.

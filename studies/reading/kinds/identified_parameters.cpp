@@ -97,12 +97,11 @@ std::size_t read_parameter(const IdentifyReading& reading, const TomlSection& se
                  suggestion(name, parameters.names()));
   if (!parameters.list[*index].is_number())
     section.fail(rules::computed_parameter, "parameter",
-                 "\"{}\" is computed from other parameters; only one that is a "
-                 "number is identified",
+                 "\"{}\" is computed from other parameters; only one that is a number can be identified",
                  name);
   for (const IdentifiedParameter& other : reading.choice.parameters) {
     if (other.parameter == *index)
-      section.fail(rules::given_twice, "parameter", "\"{}\" is identified already (line {})", name,
+      section.fail(rules::given_twice, "parameter", "\"{}\" is already identified (line {})", name,
                    other.position.line);
   }
   if (!system_depends_on(reading.study, *index))
@@ -148,7 +147,7 @@ void read_bounds(const Study& study, const TomlSection& section, IdentifiedParam
   if (section.find("upper")) fitted.upper = section.number("upper") * factor;
   if (!(fitted.lower < fitted.upper))
     section.fail(rules::wrong_order, "upper",
-                 "{} is not above \"lower\" = {}; bounds go from the lower to the upper",
+                 "{} is not above \"lower\" = {}; the upper bound must be above the lower",
                  section.number("upper"), fitted.lower / factor);
   const double start = std::get<double>(study.parameters.list[fitted.parameter].definition);
   if (start >= fitted.lower && start <= fitted.upper) return;
@@ -182,7 +181,7 @@ void read_identified_parameters(IdentifyReading& reading, const TomlSection& sec
   if (reading.choice.method == Method::grey_box) {
     if (section.find("estimate"))
       section.fail(rules::key_without_use, "estimate",
-                   "a grey box estimates the parameters themselves; leave it out");
+                   "a grey box estimates the parameters themselves; leave out this key");
     read_bounds(reading.study, section, identified);
     identified.each_record = section.boolean_or("each_record", false);
   } else {

@@ -33,8 +33,9 @@ void read_known_values(NetworkReading& reading, const TomlSection& section, Iden
   choice.reference_frequency =
       read_optional(reading, section, "reference_frequency", Quantity::angular_frequency);
   if (choice.method == Method::free_decay && choice.mass && choice.stiffness)
-    section.fail(rules::one_of_two_keys, "stiffness",
-                 "the mass is given too; a free decay tells the other of the two by its frequency");
+    section.fail(
+        rules::one_of_two_keys, "stiffness",
+        "the mass is also given; a free decay determines one of the two from the other by its frequency");
 }
 
 // The file's name without its ending, as a name: "free decay-1.csv" -> free_decay_1.
@@ -57,9 +58,8 @@ RecordChoice read_record_heading(NetworkReading& reading, const TomlSection& sec
     if (other.name != record.name) continue;
     const std::string problem =
         fmt::format("the name \"{}\" is taken by the record of line {}", record.name, other.position.line);
-    section.find("name")
-        ? section.fail(rules::name_taken, "name", "{}", problem)
-        : section.fail_here(rules::name_taken, "{}", problem + "; give them a \"name\" each");
+    section.find("name") ? section.fail(rules::name_taken, "name", "{}", problem)
+                         : section.fail_here(rules::name_taken, "{}", problem + "; give each a \"name\"");
   }
   record.added_mass = read_optional(reading, section, "added_mass", Quantity::mass);
   record.static_displacement = read_optional(reading, section, "static_displacement", Quantity::length);
@@ -69,7 +69,8 @@ RecordChoice read_record_heading(NetworkReading& reading, const TomlSection& sec
 void check_system(const TomlSection& section, const Study& study, const IdentifyChoice& choice) {
   if (choice.method != Method::grey_box || !study.network.masses.empty()) return;
   section.fail(rules::missing_section, "method",
-               "a grey box fits parameters of a system, and the study has none: [[mass]] and [[element]]");
+               "a grey box fits parameters of a system, but the study has none; describe it by [[mass]] and "
+               "[[element]]");
 }
 
 // A hysteretic element has its damping at one frequency. Without a forcing at a known frequency it must be
@@ -79,11 +80,10 @@ void check_reference_frequency(const TomlSection& section, const Study& study, c
   for (const RecordChoice& record : choice.records) {
     const bool free = record.motion == identification::MotionKind::free;
     if (!free && !study.network.excitations.empty()) continue;
-    section.fail_here(
-        rules::missing_key,
-        "the key \"reference_frequency\" is missing: the study has a hysteretic element, and the "
-        "record \"{}\" no known frequency at which it would have its loss factor",
-        record.name);
+    section.fail_here(rules::missing_key,
+                      "the key \"reference_frequency\" is missing: the study has a hysteretic element, but "
+                      "the record \"{}\" has no known frequency for its loss factor",
+                      record.name);
   }
 }
 

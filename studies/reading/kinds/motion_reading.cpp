@@ -53,7 +53,7 @@ std::vector<InitialValues> read_initial(NetworkReading& reading, const TomlValue
                                    [&](const InitialValues& other) { return other.mass == values.mass; });
     if (twice) {
       throw reading.context.source.error_at(rules::given_twice, table->position,
-                                            "initial values of \"{}\": are given already",
+                                            "initial values of \"{}\": are already given",
                                             reading.result.network.masses[values.mass]);
     }
     initial.push_back(std::move(values));
@@ -76,20 +76,19 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   const Parameters& parameters = reading.parameters;
   const auto& forces = reading.result.network.excitations;
   if (mechanics::has_records(reading.result.network))
-    section.fail(
-        rules::key_without_use, "sweep_to",
-        "a run-up is made of stairs of constant frequency, and a record ([[excitation.record]]) goes "
-        "on in its own time; leave out one of them");
+    section.fail(rules::key_without_use, "sweep_to",
+                 "a run-up consists of steps of constant frequency, but a record ([[excitation.record]]) "
+                 "runs in its own time; leave out one of them");
   if (std::all_of(forces.begin(), forces.end(), [](const auto& force) { return force.order == 0; }))
     section.fail(rules::key_without_use, "sweep_to",
-                 "the excitation is constant and has no frequency that could run");
+                 "the excitation is constant, so it has no frequency that could run");
   const Expression& frequency = reading.result.values.omega.expression;
   const auto sole = frequency.sole_parameter();
   const bool is_parameter = sole && parameters.list[*sole].is_number();
   if (!is_parameter && !frequency.reads().empty()) {
     section.fail(rules::wrong_dependence, "sweep_to",
-                 "the excitation's frequency is computed from parameters; in a run-up it must be a "
-                 "number or one parameter, which then runs");
+                 "the excitation's frequency is computed from parameters; in a run-up it must be a number, "
+                 "or one parameter, which then runs");
   }
   if (!is_parameter) return;
   const auto& [network, values] = reading.result;
@@ -116,8 +115,7 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
   motion.sweep_rate = read_optional(reading, section, "sweep_rate", Quantity::angular_acceleration);
   if (motion.sweep_to.has_value() != motion.sweep_rate.has_value()) {
     section.fail_here(rules::missing_key,
-                      "the key \"{}\" is missing: a run-up or run-down has both sweep_to and "
-                      "sweep_rate",
+                      "the key \"{}\" is missing: a run-up or run-down needs both sweep_to and sweep_rate",
                       motion.sweep_to ? "sweep_rate" : "sweep_to");
   }
   if (motion.sweep_to) check_run_up(reading, section);
@@ -127,7 +125,7 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
 
 }  // namespace
 
-// The energies of a motion are recorded beside those of its elements, <element>_energy.
+// The energies of a motion are recorded next to those of its elements, <element>_energy.
 static void refuse_names_of_energies(const StudyContext& context, const Study& study) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
@@ -135,9 +133,8 @@ static void refuse_names_of_energies(const StudyContext& context, const Study& s
     if (name != "initial" && name != "final") continue;
     throw context.source.error_at(
         rules::name_taken, study.values.element[e].position,
-        "element \"{}\": the record of a motion has a number {}_energy of its own; the element "
-        "needs another name",
-        name, name);
+        "element \"{}\": the record of a motion already has a number {}_energy; rename the element", name,
+        name);
   }
 }
 

@@ -37,8 +37,8 @@ void check_units(const TomlSection& section, const RawRecord& raw) {
   for (const TomlEntry& entry : *entries) {
     if (std::find(roles.begin(), roles.end(), entry.key) != roles.end()) continue;
     throw section.source().error_at(rules::unknown_name, entry.position,
-                                    "{}: units: no column of numbers is \"{}\"{}", section.where(), entry.key,
-                                    suggestion(entry.key, roles));
+                                    "{}: units: no column of numbers is called \"{}\"{}", section.where(),
+                                    entry.key, suggestion(entry.key, roles));
   }
 }
 
@@ -76,13 +76,13 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
     const std::string& node = force ? network.masses[excitation.node] : network.prescribed[excitation.node];
     if (record.find(node + (force ? "_force" : "_displacement"))) continue;
     section.fail(rules::unfit_for_method, "file",
-                 "an excitation was measured, and takes the place of [excitation]; but \"{}\" is "
-                 "excited too and was not measured",
+                 "an excitation was measured and replaces [excitation], but \"{}\" is also excited and was "
+                 "not measured",
                  node);
   }
 }
 
-// Of the displacements of supports that were measured and drive the motion.
+// For the displacements of supports that were measured and drive the motion.
 void read_interpolation(const Study& study, const TomlSection& section, RecordChoice& record) {
   bool is_used = false;
   record.interpolation = section.choice_as<transient::Interpolation>("interpolation");
@@ -107,7 +107,7 @@ void read_interpolation(const Study& study, const TomlSection& section, RecordCh
                  "has no effect: no displacement of a support was measured, which would drive the motion");
 }
 
-// Of a grey box: the cause of the motion, and the columns it needs.
+// For a grey box: the cause of the motion, and the columns it needs.
 void read_motion_kind(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   const Study& study = reading.study;
   const auto& columns = record.columns;
@@ -125,22 +125,21 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                   : word == "forced" ? MotionKind::forced
                                      : MotionKind::periodic;
   if (record.motion != MotionKind::forced && measured)
-    section.fail(rules::unfit_for_method, "motion",
-                 "\"{}\", but an excitation was measured, which is for \"forced\"", word);
+    section.fail(rules::unfit_for_method, "motion", "\"{}\", but a measured excitation needs \"forced\"",
+                 word);
   if (record.motion != MotionKind::free && !measured && !stated)
     section.fail(rules::missing_section, "motion",
                  "\"{}\", but the study has no [excitation] and none was measured", word);
   if (measured && record.doubtful > 0)
     section.fail(rules::doubtful_row, "file",
-                 "a measured excitation drives the motion at all times: none of its rows can be left out as "
-                 "doubtful");
+                 "a measured excitation drives the motion at all times, so none of its rows can be left out "
+                 "as doubtful");
   if (measured) refuse_other_excitation(reading, section, record);
   read_interpolation(study, section, record);
   if (record.motion == MotionKind::free && study.initial().empty())
     section.fail_here(
         rules::missing_section,
-        "a free motion starts from [[initial]] values, and the study has none: nothing moves that is not "
-        "displaced or set in motion");
+        "a free motion starts from [[initial]] values, but the study has none, so nothing would move");
 }
 
 Assignment read_setting(const IdentifyReading& reading, const TomlSection& section, const TomlEntry& entry) {
@@ -150,7 +149,7 @@ Assignment read_setting(const IdentifyReading& reading, const TomlSection& secti
                            const bool is_fitted =
                                std::any_of(fitted.begin(), fitted.end(),
                                            [&](const auto& each) { return each.parameter == parameter; });
-                           return is_fitted ? "it is fitted; a record cannot set it" : "";
+                           return is_fitted ? "it is fitted, so a record cannot set it" : "";
                          });
 }
 
@@ -174,10 +173,11 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
       section.fail_here(rules::missing_key, "the key \"{}\" is missing; {}", key, rule);
   };
   check("added_mass", method == Method::added_mass && form.is_trace,
-        "it is the mass added while the trace of a record of the method \"added_mass\" was taken, 0 without");
+        "it is the mass added while the trace of a record of the method \"added_mass\" was taken; 0 if none "
+        "was");
   check("static_displacement", method == Method::resonance_magnification && form.find("amplitude"),
-        "it is the displacement at rest under the force, or the amplitude of the support, of a response "
-        "curve of the method \"resonance_magnification\"");
+        "for a response curve of the method \"resonance_magnification\" it is the displacement at rest under "
+        "the force, or the amplitude of the support");
 }
 
 }  // namespace
@@ -191,8 +191,9 @@ void read_record(IdentifyReading& reading, const TomlSection& section, RecordCho
   for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
   const RecordForm& form = form_of(forms, roles);
   if (form.find("extremum") && raw.doubtful > 0)
-    section.fail(rules::doubtful_row, "file",
-                 "turning points come in turn: none can be left out as doubtful; cut the table there");
+    section.fail(
+        rules::doubtful_row, "file",
+        "turning points follow each other, so none can be left out as doubtful; cut the table there");
   check_count(section, raw, form);
   check_keys(reading, section, form);
   take_columns(reading, section, raw, record);
@@ -200,7 +201,7 @@ void read_record(IdentifyReading& reading, const TomlSection& section, RecordCho
   read_motion_kind(reading, section, record);
   if (raw.first_is_doubtful && record.motion != MotionKind::periodic)
     section.fail(rules::doubtful_row, "file",
-                 "the motion begins at the first row, which cannot be doubtful; cut the record there, and "
+                 "the motion begins at the first row, which cannot be doubtful; cut off this row, and "
                  "[[initial]] holds at the next");
   read_settings(reading, section, record);
 }

@@ -28,8 +28,8 @@ transient::MotionQuantity read_peak(const TuneReading& reading, const TomlSectio
     if (known.back() == name) return quantity;
   }
   section.fail(rules::unfit_quantity, "quantity",
-               "\"{}\" is no peak of a displacement; under records it is <mass>_peak, <signal>_peak or "
-               "<element>_stroke{}",
+               "\"{}\" is not a peak of a displacement; under records it must be <mass>_peak, <signal>_peak "
+               "or <element>_stroke{}",
                name, suggestion(name, known));
 }
 
@@ -39,10 +39,10 @@ void read_quantile(const TomlSection& section, TuneChoice& choice) {
   choice.quantile = section.number("quantile");
   if (choice.drawn.empty())
     section.fail(rules::key_without_use, "quantile",
-                 "is one of samples: give an [[axis]] of them, as in samples = 100");
+                 "needs samples: give an [[axis]] of them, as in samples = 100");
   if (choice.peaks->objective != tuning::RecordObjective::worst_peak)
     section.fail(rules::key_without_use, "quantile",
-                 "is one of the worst peaks of samples; write objective = \"worst_peak\"");
+                 "belongs to the worst peaks of samples; write objective = \"worst_peak\"");
 }
 
 // The supports' motion and the frequency are no part of what may be tuned under records.
@@ -54,8 +54,8 @@ void check_excitation(const TuneReading& reading, const TomlSection& section) {
   });
   if (repeats)
     section.fail(rules::unfit_for_method, "objective",
-                 "a peak under records ([[excitation.record]]) is tuned beside constant forces alone; leave "
-                 "out the harmonic excitation");
+                 "with records ([[excitation.record]]) only constant forces may act; leave out the harmonic "
+                 "excitation");
 }
 
 double read_duration(const TomlSection& section, const PeakChoice& peaks) {
@@ -81,7 +81,7 @@ void check_designs(const TuneReading& reading, const TomlSection& section) {
   for (const DesignChoice& design : reading.choice.designs) {
     if (std::ranges::find(inputs, design.parameter) != inputs.end())
       section.fail(rules::wrong_dependence, "objective",
-                   "a motion under records has no frequency that could be tuned, and \"{}\" sets it",
+                   "a motion under records has no frequency that could be tuned, but \"{}\" sets it",
                    study.parameters.list[design.parameter].name);
   }
 }
@@ -90,7 +90,7 @@ void refuse_tables(const StudyContext& context, const TomlValue& root) {
   for (const char* table : {"constraint", "column", "orbits"}) {
     if (const TomlEntry* entry = find_entry(root, table))
       throw context.source.error_at(rules::other_kind, entry->position,
-                                    "the section \"{}\" is not part of a tuning over records: it is of "
+                                    "the section \"{}\" is not part of a tuning over records: it belongs to "
                                     "periodic responses over a band",
                                     table);
   }
@@ -117,7 +117,7 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   read_start(section, choice);
   if (choice.start == tuning::Start::global || choice.start == tuning::Start::map)
     section.fail(rules::key_without_use, "start",
-                 "under records there is no search of the whole box; write a number of starts");
+                 "under records the whole box cannot be searched; write a number of starts");
   read_tolerance(section, choice);
   choice.peaks = std::move(peaks);
   read_designs(reading);

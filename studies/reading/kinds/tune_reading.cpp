@@ -32,14 +32,14 @@ void check_variance(const TuneReading& reading, const TomlSection& section) {
   const Measure measure = reading.choice.quantity.measure;
   if (measure != Measure::rms && measure != Measure::stroke) {
     section.fail(rules::unfit_quantity, "quantity",
-                 "\"{}\" has no variance; under white noise it is a mass's <mass>_rms or an "
-                 "element's <element>_stroke (its rms)",
+                 "\"{}\" has no variance; under white noise use <mass>_rms of a mass or <element>_stroke of "
+                 "an element (its rms)",
                  reading.choice.quantity_name);
   }
   if (const mechanics::Element* unfit = mechanics::element_unfit_for_noise(reading.study.network)) {
     section.fail(rules::unfit_for_method, "objective",
-                 "a variance is that of a linear system under white noise, and element \"{}\" is "
-                 "a {}{}; write \"minimax\" or \"mean_square\"",
+                 "a variance needs a linear system under white noise, but element \"{}\" is a {}{}; write "
+                 "\"minimax\" or \"mean_square\"",
                  unfit->name, mechanics::kind_of(*unfit).name, unfit->bends.empty() ? "" : " with a table");
   }
 }
@@ -78,7 +78,7 @@ UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section,
   if (!section.find("unit") && unit.si_factor != 1.0) {
     section.fail_here(
         rules::missing_unit,
-        "the parameter is given in \"{0}\" and its band in no unit; add unit = \"{0}\" or another",
+        "the parameter is given in \"{0}\", but its band has no unit; add unit = \"{0}\" or another",
         unit.text);
   }
   return unit;
@@ -89,10 +89,9 @@ void refuse_fixed_frequency(const TuneReading& reading, const TomlSection& secti
   const Study& study = reading.study;
   if (!study.parameters.inputs_of(study.values.omega.expression.reads()).empty()) return;
   const std::string message =
-      "the excitation's frequency is a fixed number, and a band runs over a parameter: write frequency = "
+      "the excitation's frequency is a fixed number, but a band runs over a parameter: write frequency = "
       "\"omega\", [parameters] omega = { value = 3, unit = \"Hz\" }, and band = { parameter = \"omega\", "
-      "from = 3, "
-      "to = 3, unit = \"Hz\" } for this one frequency";
+      "from = 3, to = 3, unit = \"Hz\" } for this one frequency";
   *key ? section.fail(rules::wrong_dependence, key, "{}", message)
        : section.fail_here(rules::missing_key, "the key \"band\" is missing: {}", message);
 }
@@ -137,8 +136,8 @@ void refuse_idle_band(const TuneReading& reading, const TomlSection& section) {
   if (choice.objective != Objective::variance || !choice.band || !choice.limits.empty() || choice.trade_off)
     return;
   section.fail(rules::key_without_use, "band",
-               "a variance under white noise is over all frequencies, and there is no limit that would hold "
-               "over this band; leave it out, or write objective = \"mean_square\", which is over the band");
+               "a variance under white noise covers all frequencies, and no limit needs this band; leave it "
+               "out, or write objective = \"mean_square\", which covers the band");
 }
 
 void read_trade_off(TuneReading& reading, const TomlSection& section) {
@@ -170,7 +169,7 @@ void check_weight(const TuneReading& reading, const TomlSection& section) {
     }
     if (designed || set)
       section.fail(rules::wrong_dependence, "weight",
-                   "depends on \"{}\", which the {}; a weight is of the band alone",
+                   "depends on \"{}\", which the {}; a weight may depend only on the band",
                    parameters.list[input].name, designed ? "tuning changes" : "scenarios change");
   }
 }
@@ -180,10 +179,11 @@ void check_dominate(const TuneReading& reading, const TomlSection& section) {
   section.choice("dominate");
   if (!reading.choice.has_schedule())
     section.fail(rules::key_without_use, "dominate",
-                 "needs a [[design]] with a schedule, which is to be nowhere above its constant");
+                 "needs a [[design]] with a schedule, which must be nowhere above its constant");
   if (std::ranges::any_of(reading.choice.designs, &DesignChoice::may_leap))
-    section.fail(rules::key_without_use, "dominate",
-                 "does not go with a schedule that jumps, whose place is that of the least worst peak");
+    section.fail(
+        rules::key_without_use, "dominate",
+        "cannot be combined with a schedule that jumps, because its jump is placed for the least worst peak");
 }
 
 }  // namespace
@@ -204,7 +204,7 @@ periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSect
   if (!quantity) {
     std::vector<std::string> known;
     for (const auto& each : periodic::all_quantities(network)) known.push_back(describe(each).name);
-    section.fail(rules::unknown_name, key, "\"{}\" is no quantity of the study{}", name,
+    section.fail(rules::unknown_name, key, "\"{}\" is not a quantity of the study{}", name,
                  suggestion(name, known));
   }
   if (describe(*quantity).kind != periodic::QuantityKind::real)
@@ -213,8 +213,8 @@ periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSect
                  "continuously",
                  name);
   if (!periodic::is_differentiable(quantity->measure))
-    section.fail(rules::unfit_quantity, key, "\"{}\" has no derivative by a design; a tuning needs one",
-                 name);
+    section.fail(rules::unfit_quantity, key,
+                 "\"{}\" has no derivative with respect to a design; a tuning needs one", name);
   return *quantity;
 }
 
@@ -281,7 +281,7 @@ tuning::Band read_range(const TomlSection& section, double si_factor) {
   const double from = section.number("from"), to = section.number("to");
   if (!(from <= to))
     section.fail(rules::wrong_order, "to",
-                 "{} is below \"from\" = {}; a band goes from the lower end to the upper", to, from);
+                 "{} is below \"from\" = {}; a band runs from the lower end to the upper", to, from);
   return {from * si_factor, to * si_factor};
 }
 

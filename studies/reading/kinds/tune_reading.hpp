@@ -31,12 +31,12 @@ void read_tolerance(const TomlSection& section, TuneChoice& choice);
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
                                       const std::string& key);
 
-// Unit of a quantity's limits: that of the key "unit", else the quantity's own, which is SI.
+// Unit of a quantity's limits: that of the key "unit", otherwise the quantity's own, which is SI.
 UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& section,
                              const periodic::Quantity& quantity);
 
-// Unit of a parameter's numbers: that of the key "unit", which is noted with the parameter, else the usual
-// one.
+// Unit of a parameter's numbers: that of the key "unit", which is noted with the parameter, otherwise the
+// usual one.
 UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter);
 
 // A parameter that is a number, by its name at a key. role: "a design parameter", for messages.

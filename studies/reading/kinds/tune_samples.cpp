@@ -19,12 +19,12 @@ const TomlValue& axis_of_samples(const TuneReading& reading) {
   for (const TomlValue* table : tables) {
     if (!is_axis_of_samples(*table))
       throw source.error_at(rules::other_kind, table->position,
-                            "an [[axis]] of a tuning is one of samples, as in samples = 100; what is tuned "
-                            "has its range in [[design]]");
+                            "an [[axis]] of a tuning must have samples, as in samples = 100; the range of "
+                            "what is tuned belongs in [[design]]");
   }
   if (tables.size() > 1)
     throw source.error_at(rules::given_twice, tables[1]->position,
-                          "a tuning has one axis of samples; list all that is uncertain in that one");
+                          "a tuning has one axis of samples; list all uncertain parameters there");
   if (!reading.choice.scenarios.empty())
     throw source.error_at(rules::key_without_use, tables[0]->position,
                           "each sample is a scenario; leave out either the samples or the [[scenario]]");
@@ -35,10 +35,9 @@ void check_not_tuned(const TuneReading& reading, const ParameterAxis& axis) {
   const auto is_it = [&](const DesignChoice& design) { return design.parameter == axis.parameter; };
   if (!std::ranges::any_of(reading.choice.designs, is_it)) return;
   const std::string& name = reading.study.parameters.list[axis.parameter].name;
-  throw reading.context.source.error_at(rules::wrong_dependence, axis.position,
-                                        "\"{}\" is tuned, and samples cannot set it; let a factor on it "
-                                        "scatter",
-                                        name);
+  throw reading.context.source.error_at(
+      rules::wrong_dependence, axis.position,
+      "\"{}\" is tuned, so samples cannot set it; let a factor on it scatter", name);
 }
 
 }  // namespace
@@ -67,14 +66,14 @@ void refuse_samples(const TuneReading& reading) {
     throw reading.context.source.error_at(
         rules::other_kind, entry->position,
         "the section \"axis\" is not part of a tuning over a band: the band and the bounds of [[design]] are "
-        "its ranges, and samples are of a tuning over records");
+        "its ranges, and samples belong to a tuning over records");
 }
 
 void refuse_quantile(const TomlSection& section) {
   if (section.find("quantile"))
     section.fail(rules::other_kind, "quantile",
-                 "is of a tuning over records, of the worst peaks of samples; over a band there are none: "
-                 "leave it out, or drive the study by [[excitation.record]]");
+                 "belongs to the worst peaks of samples in a tuning over records; over a band there are "
+                 "none: leave it out, or drive the study by [[excitation.record]]");
 }
 
 }  // namespace frahm::studies

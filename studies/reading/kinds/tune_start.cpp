@@ -32,11 +32,11 @@ void check_map(const TuneReading& reading, const TomlSection& section) {
       reading.choice.designs, [](const DesignChoice& design) { return design.lower < design.upper; });
   if (varying > kMostOfMap)
     section.fail(rules::out_of_range, "start",
-                 "\"map\" looks over up to {} parameters, but {} are tuned; write a number of starts",
+                 "\"map\" searches up to {} parameters, but {} are tuned; write a number of starts",
                  kMostOfMap, varying);
   if (tuning::may_take_several_orbits(reading.study.network))
     section.fail(rules::unfit_quantity, "start",
-                 "\"map\" is of systems with one response at each frequency; write a number of starts");
+                 "\"map\" needs a system with one response at each frequency; write a number of starts");
 }
 
 void read_start(const TomlSection& section, TuneChoice& choice) {

@@ -26,7 +26,7 @@ std::optional<AxisProblem> axis_problem(const Study& study, const std::string& n
   for (const ParameterAxis& other : study.map()->axes) {
     if (other.parameter != *index) continue;
     return AxisProblem{rules::given_twice,
-                       fmt::format("\"{}\" has an axis already (line {})", name, other.position.line)};
+                       fmt::format("\"{}\" already has an axis (line {})", name, other.position.line)};
   }
   return std::nullopt;
 }
@@ -45,10 +45,11 @@ void set_axis_unit(const std::optional<Unit>& unit, Parameter& parameter, Parame
     parameter.unit_of_range = unit;
   } else if (parameter.unit) {
     if (si_factor(parameter, *parameter.unit) != 1.0) {
-      throw UnitError(rules::missing_unit,
-                      fmt::format("the parameter is given in \"{0}\" and its axis in no unit; add unit = "
-                                  "\"{0}\" or another",
-                                  parameter.unit->text));
+      throw UnitError(
+          rules::missing_unit,
+          fmt::format(
+              "the parameter is given in \"{0}\", but its axis has no unit; add unit = \"{0}\" or another",
+              parameter.unit->text));
     }
     axis.unit = parameter.unit->text;
   } else if (parameter.quantity) {
@@ -141,7 +142,7 @@ std::vector<double> read_listed(const TomlSection& section) {
   for (const char* key : {"from", "to", "points", "spacing"}) {
     if (section.find(key))
       section.fail(rules::key_without_use, key,
-                   "does not go with \"values\": give either values or from, to and points");
+                   "cannot be combined with \"values\": give either values, or from, to and points");
   }
   const TomlValue& list = section.require("values");
   const auto* items = list.as<TomlArray>();
@@ -176,7 +177,7 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   read_axis_unit(context, section, study.parameters.list[axis.parameter], axis);
   if (!section.find("values") && !section.find("from")) {
     section.fail_here(rules::missing_key,
-                      "its values are missing: give values = [...] or from, to and points");
+                      "its values are missing: give values = [...], or from, to and points");
   }
   axis.values = section.find("values") ? read_listed(section) : read_range(section);
   if (section.find("zip")) {
@@ -224,7 +225,7 @@ void read_axes(const StudyContext& context, const TomlValue& root, const std::fi
     points *= static_cast<double>(dimension.size);
   if (points > most_grid_points) {
     throw context.source.error_at(rules::too_large, tables.back()->position,
-                                  "the grid has {:.3g} points, more than the {:.0e} allowed", points,
+                                  "the grid has {:.3g} points, but at most {:.0e} are allowed", points,
                                   most_grid_points);
   }
 }
@@ -259,10 +260,10 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
     coordinate.long_name = section.text_or("long_name", "");
     const auto moving = dimensions_moving(study, coordinate.value.expression.reads());
     if (moving.size() != 1) {
-      section.fail(rules::wrong_dependence, "value",
-                   "depends on {}; a coordinate depends on the parameters of one axis (or of one "
-                   "zip)",
-                   moving.empty() ? "no axis" : "several axes");
+      section.fail(
+          rules::wrong_dependence, "value",
+          "depends on {}; a coordinate may depend only on the parameters of one axis (or of one zip)",
+          moving.empty() ? "no axis" : "several axes");
     }
     coordinate.dimension = moving.front();
     study.map()->coordinates.push_back(std::move(coordinate));

@@ -13,7 +13,7 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_elements = 125;  // values of a flag, beside "not_computed" and "none"
+constexpr std::size_t most_elements = 125;  // values of a flag, next to "not_computed" and "none"
 
 const std::string& name_of(const Study& study, const ParameterAxis& axis) {
   return study.parameters.list[axis.parameter].name;
@@ -23,14 +23,14 @@ const std::string& name_of(const Study& study, const ParameterAxis& axis) {
 void check_axis(const TomlSection& section, const char* key, const Study& study, const ParameterAxis& axis) {
   const auto& samples = study.map()->samples;
   if (samples && axis.zip == study.map()->dimensions[samples->dimension].name)
-    section.fail(rules::unfit_axis, key, "a branch goes along a range, but \"{}\" has samples, in no order",
+    section.fail(rules::unfit_axis, key, "a branch follows a range, but \"{}\" has samples in no order",
                  name_of(study, axis));
   if (!axis.zip.empty())
     section.fail(rules::unfit_axis, key,
-                 "a branch goes along one parameter, but \"{}\" advances with the others of \"{}\"",
+                 "a branch follows one parameter, but \"{}\" advances with the others of \"{}\"",
                  name_of(study, axis), axis.zip);
   if (axis.values.size() < 2)
-    section.fail(rules::unfit_axis, key, "a branch goes along a range, but \"{}\" has one value",
+    section.fail(rules::unfit_axis, key, "a branch follows a range, but \"{}\" has one value",
                  name_of(study, axis));
 }
 
@@ -65,8 +65,8 @@ std::vector<Assignment> read_row(const StudyContext& context, const Study& study
   };
   const WhyNot why_not = [&](std::size_t parameter) -> std::string {
     const auto axis = axis_of(parameter);
-    if (axis == axes.end()) return "it is no axis of the map";
-    return axis == axes.begin() + static_cast<std::ptrdiff_t>(along) ? "the branches go along it" : "";
+    if (axis == axes.end()) return "it is not an axis of the map";
+    return axis == axes.begin() + static_cast<std::ptrdiff_t>(along) ? "the branches follow it" : "";
   };
   std::vector<Assignment> row;
   for (const TomlEntry& entry : *entries) {
@@ -78,8 +78,8 @@ std::vector<Assignment> read_row(const StudyContext& context, const Study& study
     const double nearest = *std::ranges::min_element(
         axis->values, {}, [wanted](double each) { return std::abs(each - wanted); });
     throw context.source.error_at(rules::out_of_range, entry.value.position,
-                                  "{}: {}: {} is no value of this axis; the nearest is {}", where, entry.key,
-                                  wanted, nearest);
+                                  "{}: {}: {} is not a value of this axis; the nearest is {}", where,
+                                  entry.key, wanted, nearest);
   }
   return row;
 }
@@ -99,17 +99,16 @@ void check_elements(const TomlSection& section, const Study& study) {
   for (const mechanics::Element& element : study.network.elements) {
     if (element.law != mechanics::FrictionLaw::exact)
       section.fail(rules::wrong_law, "branches",
-                   "element \"{}\" follows the arctan law, and branches follow the exact one", element.name);
+                   "element \"{}\" follows the arctan law, but branches need the exact one", element.name);
     if (element.name == "none" || element.name == "not_computed")
       section.fail(rules::name_taken, "branches",
-                   "\"{}\" says in their record that no element is meant; name this one otherwise",
-                   element.name);
+                   "\"{}\" means no element in the record of branches; rename this element", element.name);
   }
   const std::size_t with_events = elements_with_events(study.network).size();
   if (with_events > most_elements)
     section.fail(rules::too_large, "branches",
-                 "of {} elements that may begin to stop or to touch; at most {} can be told apart",
-                 with_events, most_elements);
+                 "{} elements may begin to stop or to touch; at most {} can be distinguished", with_events,
+                 most_elements);
 }
 
 }  // namespace

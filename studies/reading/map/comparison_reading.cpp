@@ -20,11 +20,11 @@ namespace {
 using mechanics::ExcitationKind;
 using mechanics::FrictionLaw;
 
-// Of which there is no exact law to compare with.
+// There is no exact law to compare these with.
 void refuse_other_smooth_laws(const TomlSection& section, const Study& study) {
   for (const mechanics::Element& each : study.network.elements) {
     if (!each.has_cubic && each.law != FrictionLaw::stribeck) continue;
-    section.fail(rules::wrong_law, "law", "element \"{}\" has a {}, which no other law knows", each.name,
+    section.fail(rules::wrong_law, "law", "element \"{}\" has a {}, which no other law has", each.name,
                  each.has_cubic ? "cubic" : "table");
   }
 }
@@ -41,12 +41,13 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
   const bool arctan = section.choice("law") == "arctan";
   comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
   if (arctan) {
-    refuse_bends(study, "the compared law \"arctan\" does not stand beside it");
+    refuse_bends(study, "it cannot be combined with the compared law \"arctan\"");
     for (const mechanics::Element& each : elements) {
       const mechanics::ElementKind& kind = mechanics::kind_of(each);
       if (each.has_static_force)
         section.fail(rules::wrong_law, "law",
-                     "element \"{}\" has a static_force, which the arctan law knows not", each.name);
+                     "element \"{}\" has a static_force, which is not available with the arctan law",
+                     each.name);
       if (kind.law == nullptr || kind.can_be_smoothed()) continue;
       section.fail(rules::wrong_law, "law", "element \"{}\" is a {}, which has no arctan law", each.name,
                    kind.name);
@@ -58,7 +59,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
     section.fail(rules::key_without_use, "slope", "only the law \"arctan\" has a slope");
   if (rubbing->law == FrictionLaw::exact)
     section.fail(rules::wrong_law, "law",
-                 "the study follows the exact law itself; compare it with \"arctan\"");
+                 "the study already follows the exact law; compare it with \"arctan\"");
 }
 
 void read_compared_profile(const TomlSection& section, const Study& study, Comparison& comparison) {
@@ -74,7 +75,7 @@ void read_compared_profile(const TomlSection& section, const Study& study, Compa
                                  [](const auto& each) { return each.kind == ExcitationKind::crank; });
   section.fail(rules::key_without_use, "taylor_order", "{}",
                none ? "the study has no motion of the profile \"crank\" to be cut"
-                    : "the study's cranks are cut at this order themselves");
+                    : "the study's cranks are already cut at this order");
 }
 
 // A real-valued quantity of the study by its name.
@@ -91,11 +92,11 @@ periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice:
   if (!quantity) {
     std::vector<std::string> known;
     for (const auto& each : periodic::all_quantities(study.network)) known.push_back(describe(each).name);
-    fail(rules::unknown_name, " is no quantity of the study" + suggestion(name.text, known));
+    fail(rules::unknown_name, " is not a quantity of the study" + suggestion(name.text, known));
   }
   if (describe(*quantity).kind != periodic::QuantityKind::real)
     fail(rules::unfit_quantity,
-         " is a count or a flag; a relative difference is of numbers that vary continuously");
+         " is a count or a flag; a relative difference needs numbers that vary continuously");
   return *quantity;
 }
 
@@ -121,10 +122,9 @@ void read_compared_show(const TomlSection& section, const Study& study, Comparis
   if (section.find("slope"))
     section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to another response");
   if (!mechanics::may_have_several_responses(study.network))
-    section.fail(
-        rules::key_without_use, "show",
-        "has no effect: several responses are searched where an element is a gap, has a table, a cubic or a "
-        "static_force; here there is one alone");
+    section.fail(rules::key_without_use, "show",
+                 "has no effect: only one response exists here; several are searched for only if an element "
+                 "is a gap, or has a table, a cubic or a static_force");
   comparison.show = read_show(section);
 }
 
@@ -154,7 +154,7 @@ void check_compared_show(const StudyContext& context, const TomlValue& root, con
   if (!comparison || !comparison->show) return;
   const TomlSection section = section_of(context, *find_entry(root, "compare"));
   if (*comparison->show == study.sweep()->orbits.show)
-    section.fail(rules::key_without_use, "show", "the study itself shows this response; write another");
+    section.fail(rules::key_without_use, "show", "the study already shows this response; choose another");
   if (periodic::OrbitsWanted::is_slow_sweep(*comparison->show)) check_slow_sweep(section, study);
 }
 

@@ -31,7 +31,7 @@ void read_ends(const TomlSection& section, Distribution& distribution) {
 void check_cuts(const TomlSection& section, const Distribution& distribution) {
   if (samples::kept_share(distribution) >= least_share) return;
   section.fail(rules::out_of_range, section.find("lower") ? "lower" : "upper",
-               "the distribution lies outside lower and upper but for less than {} of it", least_share);
+               "less than {} of the distribution lies between lower and upper", least_share);
 }
 
 void read_normal(const TomlSection& section, Distribution& distribution) {
@@ -41,7 +41,7 @@ void read_normal(const TomlSection& section, Distribution& distribution) {
   if (spread == "deviation") return;
   distribution.spread *= std::abs(distribution.centre);
   if (!(distribution.spread > 0.0))
-    section.fail(rules::out_of_range, "variation", "is that of a mean of 0; give the deviation");
+    section.fail(rules::out_of_range, "variation", "belongs to a mean of 0; give the deviation instead");
 }
 
 // Mean = median exp(s^2 / 2), s the deviation of the logarithm.

@@ -30,7 +30,7 @@ double read_positive(const StudyContext& context, const TomlSection& section, co
   return value;
 }
 
-// The time from which on a record fades, behind its rise and before its end.
+// The time from which on a record fades, after its rise and before its end.
 void read_level(const StudyContext& context, const TomlSection& section, double duration,
                 Envelope& envelope) {
   envelope.rise = read_positive(context, section, "rise", Quantity::time);
@@ -69,8 +69,8 @@ void read_ground(const StudyContext& context, const TomlSection& section, Genera
   const double highest = std::numbers::pi * generated.sampling.rate;
   if (ground.ground_frequency >= highest)
     section.fail(rules::out_of_range, "rate",
-                 "{} a second is too low for the ground's {:.6g} rad/s: samples tell frequencies up to half "
-                 "their rate apart, {:.6g} rad/s",
+                 "{} per second is too low for the ground's {:.6g} rad/s: samples can distinguish "
+                 "frequencies only up to half their rate, {:.6g} rad/s",
                  generated.sampling.rate, ground.ground_frequency, highest);
   ground.envelope = read_envelope(context, section, generated.sampling.duration);
 }
@@ -78,11 +78,11 @@ void read_ground(const StudyContext& context, const TomlSection& section, Genera
 void check_size(const TomlSection& section, const GeneratedRecords& generated) {
   const double intervals = generated.sampling.duration * generated.sampling.rate;
   if (intervals < 1.0)
-    section.fail(rules::too_few, "duration", "{} s hold no interval at {} samples a second",
+    section.fail(rules::too_few, "duration", "{} s contain no interval at {} samples per second",
                  generated.sampling.duration, generated.sampling.rate);
   const double samples = intervals * static_cast<double>(generated.count);
   if (samples > most_samples)
-    section.fail(rules::too_large, "count", "{} records have {:.3g} samples, more than the {:.0e} allowed",
+    section.fail(rules::too_large, "count", "{} records have {:.3g} samples, but at most {:.0e} are allowed",
                  generated.count, samples, most_samples);
 }
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t most_points_tried = 100'000;  // for one value: some milliseconds
 
 // Something to check: a value of the network, a derived coordinate, a derived parameter, or the values of an
-// element beside each other.
+// element next to each other.
 struct Checked {
   const StudyValue* value = nullptr;     // or
   const Parameter* parameter = nullptr;  // with its index
@@ -28,7 +28,7 @@ struct Checked {
   std::optional<std::size_t> element{};  // whose values
 };
 
-// The parameters that the values of an element read which are checked beside each other.
+// The parameters that the values of an element read which are checked together.
 std::vector<std::size_t> reads_of_element(const StudyValues& values, std::size_t e) {
   std::vector<std::size_t> reads;
   const auto add = [&](const StudyValue& value) {
@@ -213,7 +213,7 @@ double crank_ratio(const Study& study, std::size_t excitation, std::span<const d
   if (ratio <= mechanics::kLargestCrankRatio) return ratio;
   fail(rules::out_of_range, study, {&crank, nullptr, reads_of_crank(study, excitation)}, parameters,
        fmt::format("is {:.6g} times the rod", ratio),
-       fmt::format("must be at most {} times the rod, or its Fourier series is too long",
+       fmt::format("must be at most {} times the rod; otherwise its Fourier series is too long",
                    mechanics::kLargestCrankRatio));
 }
 

@@ -7,12 +7,11 @@ namespace frahm::studies {
 void check_slow_sweep(const TomlSection& section, const Study& study) {
   refuse_smooth_laws(study, "a sweep up or down");
   if (!study.sweep()->frequency_dimension)
-    section.fail(rules::unfit_axis, "show",
-                 "sweeps the excitation frequency, which changes along no [[axis]]");
+    section.fail(rules::unfit_axis, "show", "sweeps the excitation frequency, but no [[axis]] changes it");
   const auto& samples = study.map()->samples;
   if (samples && study.sweep()->frequency_dimension == samples->dimension)
     section.fail(rules::unfit_axis, "show",
-                 "sweeps the excitation frequency, which here is that of samples in no order");
+                 "sweeps the excitation frequency, but here it belongs to samples in no order");
 }
 
 periodic::OrbitsWanted::Show read_show(const TomlSection& section) {
@@ -29,8 +28,8 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
                                     : !mechanics::may_have_several_responses(study.network);
   if (has_one)
     section.fail_here(rules::key_without_use,
-                      "has no effect: several responses are searched where an element is a gap, has a table, "
-                      "a cubic or a static_force; here there is one alone");
+                      "has no effect: only one response exists here; several are searched for only if an "
+                      "element is a gap, or has a table, a cubic or a static_force");
   wanted.starts = static_cast<int>(section.integer_or("starts", wanted.starts));
   wanted.most_multiple = static_cast<int>(section.integer_or("most_multiple", wanted.most_multiple));
   if (study.tune()) {
@@ -46,7 +45,7 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
       comparison && comparison->show && !periodic::OrbitsWanted::is_slow_sweep(*comparison->show);
   if (section.find("starts") && !searches)
     section.fail(rules::key_without_use, "starts",
-                 "has no effect: a sweep begins at rest and goes on from point to point");
+                 "has no effect: a sweep begins at rest and continues from point to point");
   return wanted;
 }
 

@@ -25,9 +25,7 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
     const std::string word = section.text("quantities");
     if (word != "standard" && word != "all") {
       section.fail(rules::wrong_type, "quantities",
-                   "\"{0}\" is neither \"standard\" nor \"all\"; names stand in an array: "
-                   "[\"{0}\"]",
-                   word);
+                   "\"{0}\" is neither \"standard\" nor \"all\"; write names as an array: [\"{0}\"]", word);
     }
     output.quantities = word == "all" ? OutputChoice::Quantities::all : OutputChoice::Quantities::standard;
     return;
@@ -40,8 +38,7 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
 void read_quantiles(const TomlSection& section, std::optional<SampleChoice>& samples) {
   const TomlValue* value = section.find("quantiles");
   if (!value) return;
-  if (!samples)
-    section.fail(rules::key_without_use, "quantiles", "has no effect: no [[axis]] is one of samples");
+  if (!samples) section.fail(rules::key_without_use, "quantiles", "has no effect: no [[axis]] has samples");
   const auto* items = value->as<TomlArray>();
   if (!items || items->empty())
     section.fail(rules::wrong_type, "quantiles", "expected an array of shares such as [0.05, 0.5, 0.95]");
@@ -72,18 +69,19 @@ void read_borders(const TomlSection& section, Study& study) {
     if (!mechanics::has_own_contact(element)) continue;
     if (element.law != mechanics::FrictionLaw::exact) {
       section.fail(rules::wrong_law, "borders",
-                   "element \"{}\" follows a smooth law, under which nothing sticks "
-                   "and there are no regimes to border on each other",
+                   "element \"{}\" follows a smooth law, under which nothing sticks, so there are no regimes "
+                   "with borders",
                    element.name);
     }
     ++contacts;
   }
   if (contacts == 0)
     section.fail(rules::no_contact, "borders",
-                 "borders are those between regimes of coulomb elements, and there is none");
+                 "borders lie between regimes of coulomb elements, but there is no coulomb element");
   if (contacts > most_bordered_elements)
-    section.fail(rules::too_large, "borders", "of {} coulomb elements; at most {} can be told apart",
-                 contacts, most_bordered_elements);
+    section.fail(rules::too_large, "borders",
+                 "there are {} coulomb elements; at most {} can be distinguished", contacts,
+                 most_bordered_elements);
 }
 
 // Whether each frequency along a dimension belongs to one value of its axis.
@@ -127,15 +125,15 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
   const auto dimension = study.sweep()->frequency_dimension;
   if (!dimension || study.map()->dimensions[*dimension].axes.size() > 1 ||
       study.map()->dimensions[*dimension].size < 3) {
-    section.fail(
-        rules::unfit_axis, "resonances",
-        "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
-        "other and has at least 3 points");
+    section.fail(rules::unfit_axis, "resonances",
+                 "a resonance is searched for along an axis of the excitation frequency that is not zipped "
+                 "with another and has at least 3 points");
   }
   const auto& samples = study.map()->samples;
   if (samples && samples->dimension == *dimension)
-    section.fail(rules::unfit_axis, "resonances",
-                 "a resonance is sought along an axis of the excitation frequency, not along samples of it");
+    section.fail(
+        rules::unfit_axis, "resonances",
+        "a resonance is searched for along an axis of the excitation frequency, not along samples of it");
   if (!frequencies_differ(study, *dimension))
     section.fail(rules::unfit_axis, "resonances",
                  "the excitation frequency must rise, or fall, all along its axis");
@@ -148,8 +146,8 @@ std::size_t read_record_number(const StudyContext& context, const RecordAxis& re
   if (number >= 0.0 && number < static_cast<double>(records.names.size()) && number == std::floor(number))
     return static_cast<std::size_t>(number);
   throw context.source.error_at(rules::out_of_range, value.position,
-                                "{}: record: {} is out of range: a whole number from 0 to {}", where, number,
-                                records.names.size() - 1);
+                                "{}: record: {} is out of range: must be a whole number from 0 to {}", where,
+                                number, records.names.size() - 1);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t few_masses = 8;  // so many can be told apart in tables and lists
+constexpr std::size_t few_masses = 8;  // so many can be distinguished in tables and lists
 
 std::vector<std::size_t> all_masses(const mechanics::Network& network) {
   std::vector<std::size_t> masses(network.masses.size());
@@ -30,8 +30,8 @@ std::vector<std::size_t> matching_masses(const TomlSection& section, const mecha
     if (matches(pattern, network.masses[i])) masses.push_back(i);
   if (masses.empty())
     section.fail(rules::unknown_name, "profile",
-                 "no mass is called \"{}\"{}; \"all\" takes all of them, \"floor*\" those whose names begin "
-                 "with floor",
+                 "no mass is called \"{}\"{}; \"all\" selects all of them, \"floor*\" those whose names "
+                 "begin with floor",
                  pattern, hint_of_unmatched(pattern, network.masses));
   return masses;
 }
@@ -113,8 +113,7 @@ std::optional<Profile> read_profile(const TomlSection* report, const mechanics::
   }
   if (report && report->find("height"))
     report->fail(rules::key_without_use, "height",
-                 "heights are those of the masses of `profile`, which is "
-                 "missing");
+                 "heights belong to the masses of `profile`, which is missing");
   if (network.masses.size() <= few_masses) return std::nullopt;
   return Profile{.masses = all_masses(network)};
 }

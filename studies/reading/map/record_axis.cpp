@@ -55,7 +55,7 @@ namespace {
 void check_generated(const TomlSection& section, const GeneratedRecords& generated) {
   for (const char* key : {"time", "column", "unit", "interpolation"}) {
     if (section.find(key))
-      section.fail(rules::key_without_use, key, "is of files; the axis generates the records, in SI");
+      section.fail(rules::key_without_use, key, "belongs to files; the axis generates the records, in SI");
   }
   const RecordedPlace place = place_of(section);
   const bool white = generated.kind == "white";
@@ -112,10 +112,10 @@ std::vector<std::size_t> recorded_components(const mechanics::Network& network) 
 
 void check_name_of_dimension(const StudyContext& context, const Study& study, const WrittenRecordAxis& axis) {
   if (!study.parameters.find(record_dimension)) return;
-  throw context.source.error_at(rules::name_taken, axis.position,
-                                "axis of records: its name in the map, \"{0}\", is taken by the parameter "
-                                "\"{0}\"; rename the parameter",
-                                record_dimension);
+  throw context.source.error_at(
+      rules::name_taken, axis.position,
+      "axis of records: its name in the map, \"{0}\", is that of the parameter \"{0}\"; rename the parameter",
+      record_dimension);
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, c
     if (!is_record_axis(*table)) continue;
     if (axis)
       throw context.source.error_at(rules::given_twice, table->position,
-                                    "axis of records: there is one already (line {})", axis->position.line);
+                                    "axis of records: there is already one (line {})", axis->position.line);
     axis = read_records(context, {context.source, *table, "axis of records", "axis", "records"});
   }
   return axis;
@@ -179,7 +179,7 @@ std::vector<DrivingRecord> read_driving_records(const StudyContext& context, con
     DrivingRecord driving{.excitation = components[i], .on_axis = !section.find("file"), .records = {}};
     if (driving.on_axis && !axis)
       section.fail_here(rules::missing_key,
-                        "the key \"file\" is missing: the file of the record, unless {} gives records",
+                        "the key \"file\" is missing: give the file of the record, unless {} gives records",
                         giver);
     if (data == DataFiles::read)
       driving.records = driving.on_axis ? records_of_axis(context, section, *axis, i, folder, network)

@@ -62,7 +62,7 @@ void draw(SampleReading& reading, const TomlValue& table, const std::filesystem:
   if (reading.choice.axes.empty())
     section.fail_here(
         rules::missing_key,
-        "what is uncertain is missing: give tables [[axis.of]] with distributions, or fixed_from");
+        "the uncertain parameters are missing: give tables [[axis.of]] with distributions, or fixed_from");
   const auto which = section.choice_as<samples::Sequence>("sequence");
   const Eigen::MatrixXd points = samples::unit_points(which, count, reading.choice.axes.size(), seed);
   for (Eigen::Index d = 0; d < own; ++d) {
@@ -109,12 +109,12 @@ bool is_of_file(const TomlValue& table) {
 void check_alone(const SampleReading& reading) {
   if (reading.study.map()->samples)
     reading.section.fail_here(rules::given_twice,
-                              "a map has one axis of samples; list all that is uncertain in that one");
+                              "a map has one axis of samples; list all uncertain parameters there");
   for (const ParameterAxis& axis : reading.study.map()->axes) {
     if (axis.zip == reading.zip)
-      reading.section.fail_here(rules::name_taken,
-                                "its dimension is called \"{}\", as an earlier zip is; give another by zip",
-                                reading.zip);
+      reading.section.fail_here(
+          rules::name_taken,
+          "its dimension is called \"{}\", like an earlier zip; give it another name by zip", reading.zip);
   }
 }
 
@@ -143,8 +143,8 @@ static void refuse_text_for_number(const StudyContext& context, const TomlValue&
   const TomlEntry* from = find_entry(table, "from");
   if (!from) return;
   throw context.source.error_at(rules::wrong_type, from->value.position,
-                                "[[axis]]: from: {} is no number; of a parameter it is one, in the unit of "
-                                "`unit`, of samples a CSV file without `parameter`",
+                                "[[axis]]: from: {} is not a number; for a parameter it must be a number in "
+                                "the unit of `unit`, for samples a CSV file without `parameter`",
                                 described(from->value));
 }
 

@@ -55,13 +55,13 @@ std::vector<SampleColumn> read_sample_table(const StudyContext& context, Study& 
   check_even(rows, name);
   const CsvRow& header = rows.front();
   if (!is_header(header))
-    throw StudyError(rules::no_header,
-                     "{}:{}: the first row names the parameter of each column, as in "
-                     "\"k [N/m],c [N s/m]\"",
-                     name, header.line);
+    throw StudyError(
+        rules::no_header,
+        "{}:{}: the first row must name the parameter of each column, as in \"k [N/m],c [N s/m]\"", name,
+        header.line);
   if (rows.size() < 3)
-    throw StudyError(rules::too_few, "{}: has {} rows below its header; a sample has two at least", name,
-                     rows.size() - 1);
+    throw StudyError(rules::too_few, "{}: has {} rows below its header; at least two samples are needed",
+                     name, rows.size() - 1);
   std::vector<SampleColumn> columns;
   for (std::size_t c = 0; c < header.cells.size(); ++c) {
     const ColumnName heading = column_name(header.cells[c]);
@@ -71,7 +71,7 @@ std::vector<SampleColumn> read_sample_table(const StudyContext& context, Study& 
       return other.axis.parameter == columns.back().axis.parameter;
     };
     if (std::count_if(columns.begin(), columns.end(), same) > 1)
-      throw StudyError(rules::given_twice, "{}: \"{}\" has a column already", where, heading.name);
+      throw StudyError(rules::given_twice, "{}: \"{}\" already has a column", where, heading.name);
     for (std::size_t r = 1; r < rows.size(); ++r)
       columns.back().axis.values.push_back(number_in(rows[r], c, name, header));
   }

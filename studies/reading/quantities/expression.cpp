@@ -122,8 +122,7 @@ class ExpressionParser {
     if (is_digit(c) || c == '.') return number();
     if (is_letter(c)) return name();
     if (c != '(')
-      fail(rules::wrong_expression, at_,
-           fmt::format("a number, a name or ( is expected here, found {}", found()));
+      fail(rules::wrong_expression, at_, fmt::format("expected a number, a name or (, found {}", found()));
     const std::size_t open = at_++;
     sum();
     close(open);
@@ -137,7 +136,7 @@ class ExpressionParser {
     if (error == std::errc::result_out_of_range)
       fail(rules::wrong_expression, at_, "this number is out of the range of double precision");
     if (error != std::errc{})
-      fail(rules::wrong_expression, at_, fmt::format("a number is expected here, found {}", found()));
+      fail(rules::wrong_expression, at_, fmt::format("expected a number, found {}", found()));
     const std::size_t where = at_;
     at_ += static_cast<std::size_t>(end - first);
     push({Operation::constant, 0, value}, {where, at_});
@@ -209,14 +208,14 @@ class ExpressionParser {
                        found()));
     }
     fail(rules::wrong_expression, at_,
-         fmt::format("{} has no meaning in an expression (only + - * / ^ ( ), numbers and names have)",
+         fmt::format("{} has no meaning in an expression; use only + - * / ^ ( ), numbers and names",
                      found()));
   }
 
   [[noreturn]] void fail_unknown_function(std::string_view word, std::size_t where) const {
     if (word == "pi" || std::find(names_.begin(), names_.end(), word) != names_.end()) {
       fail(rules::wrong_expression, where,
-           fmt::format("\"{0}\" is no function; a product is written {0}*(...)", word));
+           fmt::format("\"{0}\" is not a function; a product is written {0}*(...)", word));
     }
     std::vector<std::string> known;
     for (const Function& function : functions_) known.emplace_back(function.name);

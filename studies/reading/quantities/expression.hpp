@@ -102,7 +102,7 @@ class Expression {
     double constant;          // value, of Operation::constant
   };
   struct Place {
-    std::size_t first = 0, end = 0;  // bytes of the text, from 0; `end` is behind the last
+    std::size_t first = 0, end = 0;  // bytes of the text, from 0; `end` is after the last
   };
   static constexpr std::size_t most_operands = 32;  // that wait for an operation: the parser refuses more
   static constexpr std::size_t stack_size = most_operands + 2;  // with those of which two are joined

@@ -10,7 +10,8 @@
 
 namespace frahm::studies {
 
-// Of metre, kilogram and second. Radians are pure numbers: r theta is a length, v/r an angular frequency.
+// Exponents of metre, kilogram and second. Radians are pure numbers: r theta is a length, v/r an angular
+// frequency.
 using Exponents = std::array<double, 3>;
 
 // Nothing: not known, so that any will do.

@@ -30,7 +30,7 @@ struct Parameter {
   Position position;  // of its value in the study
   std::variant<double, Expression, TableOf> definition = 0.0;
 
-  // Of numbers only:
+  // For numbers only:
   std::optional<Unit> unit;  // as the study gives it
   Position unit_position;
   std::optional<Unit> unit_of_range;  // as its axis, band or bounds give it

@@ -4,7 +4,8 @@
 
 namespace frahm::studies {
 
-// How numbers and names are told with their units. A pure number, of the unit "1" or "", is told without.
+// How numbers and names are written with their units. A pure number, of the unit "1" or "", is written
+// without.
 bool is_pure_number(const std::string& unit);
 std::string with_unit(const std::string& number, const std::string& unit);  // `3.2 mm`
 std::string with_unit(double number, const std::string& unit);              // with as few digits as say it

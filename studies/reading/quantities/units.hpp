@@ -72,7 +72,7 @@ struct Unit {
 // for another dimension.
 double si_factor(const Unit& unit, Quantity expected);
 
-// The quantity of a unit, in words: "a stiffness", else its dimension in base units: "m2 s-2".
+// The quantity of a unit, in words: "a stiffness", otherwise its dimension in base units: "m2 s-2".
 std::string dimension_name(const Unit& unit);
 
 // The quantities whose values may have this unit: of N m an energy, a torque, a torsional stiffness.
@@ -84,7 +84,7 @@ std::string dimension_with_unit(const Unit& unit);
 // The SI unit of a quantity, radians left out.
 Unit coherent_unit_of(Quantity quantity);
 
-// The coherent SI unit of the same dimension: "N s m-1" where it has a name, else "m2 kg s-3"; "1" of a
+// The coherent SI unit of the same dimension: "N s m-1" where it has a name, otherwise "m2 kg s-3"; "1" of a
 // number.
 std::string coherent_unit(const Unit& unit);
 

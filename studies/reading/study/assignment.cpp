@@ -40,12 +40,12 @@ class AssignmentReading {
     }
     if (!study_.parameters.list[*parameter].is_number()) {
       fail(rules::computed_parameter,
-           fmt::format("\"{}\" is computed from other parameters; set those", name));
+           fmt::format("\"{}\" is computed from other parameters; set those instead", name));
     }
     return *parameter;
   }
 
-  // value: a number, with or without a unit behind it. Result: SI.
+  // value: a number, with or without a unit after it. Result: SI.
   double value(const Parameter& parameter, std::size_t index, std::string_view value) const {
     double number = 0.0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);

@@ -18,7 +18,8 @@ Assignment read_assignment(const StudyContext& context, const Study& study, cons
          "no parameter has this name" + suggestion(entry.key, study.parameters.names()));
   const Parameter& parameter = study.parameters.list[*index];
   if (!parameter.is_number())
-    fail(rules::computed_parameter, entry.position, "it is computed from other parameters; set those");
+    fail(rules::computed_parameter, entry.position,
+         "it is computed from other parameters; set those instead");
   if (why_not) {
     if (const std::string reason = why_not(*index); !reason.empty())
       fail(rules::key_without_use, entry.position, reason);

@@ -32,7 +32,7 @@ ExpressionDimension checked_dimension(const StudyContext& context, const Express
   }
 }
 
-// is_asked: of which parameters, and all that they read; nothing is told of other expressions.
+// is_asked: of which parameters, and all that they read; other expressions are not reported.
 std::vector<ExpressionDimension> dimensions_of(const StudyContext& context, const Parameters& parameters,
                                                const std::vector<bool>& is_asked,
                                                PlainFactor plain = PlainFactor::any_dimension) {

@@ -49,7 +49,7 @@ struct RecordChoice {
   transient::Interpolation interpolation = {};    // of the displacements of supports that drive it
   std::vector<Assignment> set;                    // of a grey box: parameters of this record
   std::vector<DataColumn> columns;                // all of one length, doubtful rows left out
-  std::vector<std::string> labels;                // of the rows, where the file has them; else empty
+  std::vector<std::string> labels;                // of the rows, where the file has them; otherwise empty
   std::size_t doubtful = 0;                       // rows marked doubtful in the file, left out
   std::optional<StudyValue> added_mass;           // [kg], of the method added_mass with traces
   std::optional<StudyValue> static_displacement;  // [m], of the method resonance_magnification
@@ -88,8 +88,8 @@ struct IdentifyChoice {
   CurveOf curve = CurveOf::force;              // of half_power, resonance_magnification, forced_resonance
   std::optional<std::size_t> cycles;           // of log_decrement: number used; absent: all
   bool sensor_offset = false;                  // of free_decay: the sensor's zero is to be fitted
-  // Of free_decay and forced_resonance: converts ratios to N s/m and N. A free decay takes at most one of the
-  // two, because it determines the other; a forced resonance takes the stiffness.
+  // For free_decay and forced_resonance: converts ratios to N s/m and N. A free decay takes at most one of
+  // the two, because it determines the other; a forced resonance takes the stiffness.
   std::optional<StudyValue> mass, stiffness;
   std::optional<StudyValue> reference_frequency;  // omega_h [rad/s] of free records
   std::vector<RecordChoice> records;              // at least one

@@ -32,7 +32,7 @@ struct GridDimension {
   std::size_t size = 0;
 };
 
-// A number computed from the parameters of one dimension and recorded beside them (frequency ratio beside
+// A number computed from the parameters of one dimension and recorded next to them (frequency ratio next to
 // rpm).
 struct DerivedCoordinate {
   std::string name, long_name;
@@ -42,8 +42,8 @@ struct DerivedCoordinate {
   std::size_t dimension = 0;  // index in MapChoice::dimensions
 };
 
-// Of the values in the file: doubles with the digits that their error bound supports, floats, or doubles with
-// all digits.
+// Form of the values in the file: doubles with the digits that their error bound supports, floats, or doubles
+// with all digits.
 enum class Precision { known_digits, single, full };
 
 // The records that drive the motions of a map, one after the other.
@@ -81,7 +81,7 @@ struct MapChoice {
   std::vector<DerivedCoordinate> coordinates;
   OutputChoice output;
   std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its default
-  std::optional<OutputChoice::Name> headline;  // the quantity that summaries tell; else of headline_of()
+  std::optional<OutputChoice::Name> headline;  // the quantity that summaries show; otherwise of headline_of()
 };
 
 }  // namespace frahm::studies

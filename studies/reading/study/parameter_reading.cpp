@@ -23,7 +23,7 @@ Parameter named_parameter(const StudyContext& context, const TomlEntry& entry) {
     fail(rules::not_a_name, "is not a name: names are a letter followed by letters, digits and _");
   const auto& reserved = Expression::reserved_names();
   if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
-    fail(rules::name_taken, "has a meaning in expressions already; choose another name");
+    fail(rules::name_taken, "already has a meaning in expressions; choose another name");
   }
   Parameter parameter;
   parameter.name = entry.key;
@@ -101,7 +101,7 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   return table;
 }
 
-// Of a text such as "3 Hz", which is no expression: how a number with a unit is written.
+// For a text such as "3 Hz", which is no expression: how a number with a unit is written.
 std::string hint_of_unit(const StudyContext& context, const std::string& text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -196,7 +196,7 @@ void order_derived(const StudyContext& context, Parameters& parameters) {
   if (stuck == resolved.end()) return;
   const auto i = static_cast<std::size_t>(stuck - resolved.begin());
   throw context.source.error_at(rules::circular_definition, parameters.list[i].position,
-                                "{}: its definition runs in a circle: {}", where_is(parameters.list[i].name),
+                                "{}: its definition is circular: {}", where_is(parameters.list[i].name),
                                 circle_through(parameters, resolved, i));
 }
 
@@ -216,7 +216,7 @@ Parameters read_parameters(const StudyContext& context, const TomlValue& root,
   constexpr std::size_t most_parameters = 2000;
   if (entries->size() > most_parameters)
     throw context.source.error_at(rules::too_large, (*entries)[most_parameters].position,
-                                  "[parameters]: {} of them; at most {} are read", entries->size(),
+                                  "[parameters]: {} parameters; at most {} are possible", entries->size(),
                                   most_parameters);
   for (const TomlEntry& entry : *entries) parameters.list.push_back(named_parameter(context, entry));
   for (std::size_t i = 0; i < entries->size(); ++i) {

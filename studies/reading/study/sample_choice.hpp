@@ -16,7 +16,7 @@ struct SampleChoice {
   std::vector<double> quantiles{0.05, 0.5, 0.95};  // shares, strictly between 0 and 1, rising
 };
 
-// Without a name of its own. Not "sample": that is an instant of the histories beside it in a file.
+// Without a name of its own. Not "sample": that is an instant of the histories next to it in a file.
 inline constexpr const char* sample_dimension = "draw";
 
 // "q5", "q97_5": the name of a quantile in the record.

@@ -37,7 +37,7 @@ struct Study {
 
   StudyKind kind() const { return static_cast<StudyKind>(choice.index()); }
 
-  // Its choice, where the study is of this kind; else null.
+  // Its choice, where the study is of this kind; otherwise null.
   const SweepChoice* sweep() const { return std::get_if<SweepChoice>(&choice); }
   const DecayChoice* decay() const { return std::get_if<DecayChoice>(&choice); }
   const TransientChoice* transient() const { return std::get_if<TransientChoice>(&choice); }
@@ -47,10 +47,10 @@ struct Study {
   TransientChoice* transient() { return std::get_if<TransientChoice>(&choice); }
   TuneChoice* tune() { return std::get_if<TuneChoice>(&choice); }
   IdentifyChoice* identify() { return std::get_if<IdentifyChoice>(&choice); }
-  // The axes and what is recorded of a sweep, or of a transient with axes; else null.
+  // The axes and what is recorded of a sweep, or of a transient with axes; otherwise null.
   const MapChoice* map() const;
   MapChoice* map();
-  // Of a decay or a transient.
+  // For a decay or a transient.
   const MotionChoice* motion() const;
   MotionChoice* motion();
 
@@ -78,7 +78,7 @@ void set_along(const MapChoice& map, std::size_t dimension, std::size_t index, s
 std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads);
 
 // The unit of a number parameter in messages and for bare numbers in orbits, --at and --set: that of its
-// axis, band or bounds, else that of its definition, else "" for SI; with its factor to SI.
+// axis, band or bounds, otherwise that of its definition, otherwise "" for SI; with its factor to SI.
 UsualUnit usual_unit(const Study& study, std::size_t parameter);
 
 }  // namespace frahm::studies

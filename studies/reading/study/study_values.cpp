@@ -5,7 +5,7 @@
 namespace frahm::studies {
 namespace {
 
-// Of an element with a table its value, and the bends of all characteristics.
+// For an element with a table its value, and the bends of all characteristics.
 template <class Number, class Part>
 void fill_bends(const StudyValues& values, std::span<const Number> parameters, Part part,
                 mechanics::NetworkValues& out) {

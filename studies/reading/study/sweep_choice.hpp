@@ -47,14 +47,14 @@ struct SweepChoice : MapChoice {
   std::optional<Comparison> comparison;
 
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if
-  // there are several, the last one along which the masses and elements stay the same, else the last.
+  // there are several, the last one along which the masses and elements stay the same, otherwise the last.
   std::optional<std::size_t> frequency_dimension;
 
   // Whether it, or what it is compared with, sweeps the frequency: each point of a row then follows from the
   // one before it.
   bool sweeps_frequency() const;
 
-  // The values that are expressions of parameters, beside those of its coordinates.
+  // The values that are expressions of parameters, next to those of its coordinates.
   std::vector<const StudyValue*> values() const;
 };
 

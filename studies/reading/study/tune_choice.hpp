@@ -37,7 +37,7 @@ struct DesignChoice {
   Position position;
 
   bool is_scheduled() const { return !knots.empty(); }
-  // Of the tuned parameter: one, or one for each knot, both sides of a jump among them.
+  // For the tuned parameter: one, or one for each knot, both sides of a jump among them.
   std::size_t count() const { return is_scheduled() ? knots.size() + (may_leap ? 2 : 0) : 1; }
 };
 
@@ -65,7 +65,7 @@ struct ScenarioChoice {
   std::vector<Assignment> set;
 };
 
-// [[column]]: a number beside the schedule, such as the ratio of a gear that sets it.
+// [[column]]: a number next to the schedule, such as the ratio of a gear that sets it.
 struct ColumnChoice {
   std::string name;
   StudyValue value;
@@ -87,7 +87,7 @@ struct PeakChoice {
 // [tune] and its tables.
 struct TuneChoice {
   tuning::Objective objective = tuning::Objective::minimax;
-  std::optional<PeakChoice> peaks;  // a tuning over records: no objective, quantity, band or limits beside
+  std::optional<PeakChoice> peaks;  // a tuning over records: no objective, quantity, band or limits with it
   std::string quantity_name;
   periodic::Quantity quantity;
   std::optional<BandChoice> band;  // only a variance without limits has none

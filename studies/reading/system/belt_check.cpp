@@ -33,8 +33,8 @@ void check_belts(const NetworkReading& reading) {
       if (!is_on_belt(network, share.node)) continue;
       throw source.error_at(
           rules::wrong_node, values.element[e].position,
-          "{}: \"{}\" moves on for ever at a constant velocity, and the force of a {} would grow with its "
-          "displacement; coulomb, damper, inerter, maxwell and jenkins elements may touch it",
+          "{}: \"{}\" moves for ever at a constant velocity, so the force of a {} would grow with its "
+          "displacement; only coulomb, damper, inerter, maxwell and jenkins elements may touch it",
           values.element[e].where, name(share.node), mechanics::kind_of(element).name);
     }
   }
@@ -43,7 +43,7 @@ void check_belts(const NetworkReading& reading) {
       if (!is_on_belt(network, node)) continue;
       throw source.error_at(
           rules::wrong_node, values.signals[i].position,
-          "signal \"{}\": \"{}\" moves on for ever at a constant velocity, and so would the signal",
+          "signal \"{}\": \"{}\" moves for ever at a constant velocity, and so would the signal",
           network.signals[i].name, name(node));
     }
   }

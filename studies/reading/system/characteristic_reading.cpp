@@ -29,7 +29,7 @@ void read_stops(NetworkReading& reading, const TomlSection& section, const Eleme
   const auto* pair = clearance.as<TomlArray>();
   if (pair && pair->size() != 2)
     section.fail(rules::wrong_length, "clearance",
-                 "one distance for both sides is expected, or two: [lower, upper], inf for no stop");
+                 "expected one distance for both sides, or two: [lower, upper], inf for no stop");
   const laws::Bend* law = section.boolean_or("tension", false) ? kind.pulling_stop : kind.stop;
   const auto add = [&](const TomlValue& value, double side) {
     if (const auto* number = value.as<double>(); number && *number == std::numeric_limits<double>::infinity())
@@ -58,12 +58,12 @@ PointQuantities quantities_of_table(const StudyCharacteristic& of, bool rotation
 void read_points(NetworkReading& reading, const TomlSection& section, bool rotational,
                  StudyCharacteristic& of) {
   const PointQuantities quantities = quantities_of_table(of, rotational);
-  const std::string expected = fmt::format("points [{}, {}] are expected", written_si_unit(quantities.place),
+  const std::string expected = fmt::format("expected points [{}, {}]", written_si_unit(quantities.place),
                                            written_si_unit(quantities.force));
   const auto* points = section.require("table").as<TomlArray>();
   if (!points) section.fail(rules::wrong_type, "table", "{}: [[-1, -5], [1, 5], ...]", expected);
   if (points->size() < 2)
-    section.fail(rules::too_few, "table", "{} point{}; two are needed at least, for a slope", points->size(),
+    section.fail(rules::too_few, "table", "{} point{}; at least two are needed for a slope", points->size(),
                  points->size() == 1 ? "" : "s");
   const Range range = of.kind == StudyCharacteristic::Kind::curve ? Range::not_negative : Range::finite;
   std::size_t number = 0;
@@ -92,7 +92,7 @@ void check_number_of_bends(const NetworkReading& reading, const TomlSection& sec
   for (const mechanics::Element& other : reading.result.network.elements) bends += other.bends.size();
   if (bends <= periodic::kMostContacts) return;
   section.fail_here(rules::too_large,
-                    "with it the system has {} stops and inner points of tables; at most {} are followed",
+                    "with it the system has {} stops and inner points of tables; at most {} can be followed",
                     bends, periodic::kMostContacts);
 }
 
@@ -114,10 +114,10 @@ StudyCharacteristic read_characteristic(NetworkReading& reading, const TomlSecti
   of.position = section.require(key).position;
   if (has_table && section.find(kind.value.key))
     section.fail(rules::one_of_two_keys, kind.value.key,
-                 "its table already says how the force rises; give one of the two");
+                 "its table already gives the force; give only one of the two");
   if (has_table && kind.cubic.exists() && section.find(kind.cubic.key))
     section.fail(rules::one_of_two_keys, kind.cubic.key,
-                 "its table is linear between its points; give one of the two");
+                 "its table already gives the force, linear between its points; give only one of the two");
   if (of.kind != Kind::stops) read_points(reading, section, rotational, of);
   if (has_table) bend_at_inner_points(kind, of, element);
   if (of.kind == Kind::stops) {

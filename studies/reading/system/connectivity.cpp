@@ -83,9 +83,9 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
     }
     throw context.source.error_at(
         rules::floating_mass, masses[i],
-        "{} {} float{} free: no chain of springs leads to ground or to a node of prescribed "
-        "motion, so the stiffness matrix is not positive definite; a weak spring to ground, with a frequency "
-        "far below those of interest, holds {}",
+        "{} {} float{} free: no chain of springs leads to ground or to a node of prescribed motion, so the "
+        "stiffness matrix is not positive definite; add a weak spring to ground, with a frequency far below "
+        "those of interest, to hold {}",
         floating.size() == 1 ? "mass" : "the masses", listed(floating, " and "),
         floating.size() == 1 ? "s" : "", floating.size() == 1 ? "it" : "them");
   }
@@ -115,10 +115,8 @@ void check_combinations_are_held(const Study& study) {
   const StudyValue& first = study.values.mass[floating.front()];
   throw study.source.error_at(
       rules::floating_mass, first.position,
-      "{}: {} can move together without straining any spring, so the stiffness matrix is "
-      "not positive definite; each needs one more spring, be it a weak one with a frequency far below those "
-      "of "
-      "interest",
+      "{}: {} can move together without straining any spring, so the stiffness matrix is not positive "
+      "definite; each needs one more spring, which may be weak, with a frequency far below those of interest",
       first.where, listed(names, " and "));
 }
 

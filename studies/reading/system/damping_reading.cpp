@@ -18,7 +18,7 @@ void read_modal(NetworkReading& reading, const TomlSection& section) {
   const TomlValue& value = section.require("modal");
   const auto* list = value.as<TomlArray>();
   if (!list) return read("[damping]: modal", value);
-  if (list->empty()) section.fail(rules::empty, "modal", "is an empty list; a ratio is expected");
+  if (list->empty()) section.fail(rules::empty, "modal", "is an empty list; expected at least one ratio");
   const std::size_t modes = reading.result.network.masses.size();
   if (list->size() > modes)
     section.fail(rules::wrong_length, "modal", "{} ratios are given, but the system has {} mode{}",
@@ -31,7 +31,7 @@ void read_rayleigh(NetworkReading& reading, const TomlSection& section) {
   const auto* list = section.require("rayleigh").as<TomlArray>();
   if (!list || list->size() != 2)
     section.fail(list ? rules::wrong_length : rules::wrong_type, "rayleigh",
-                 "two numbers are expected: rayleigh = [a, b] is a M + b K, a in 1/s, b in s");
+                 "expected two numbers: rayleigh = [a, b] is a M + b K, a in 1/s, b in s");
   const auto read = [&](const char* where, const TomlValue& value, Quantity quantity) {
     reading.result.values.damping.push_back(
         read_value_at(reading, where, value, quantity, range_in(section, "rayleigh")));
@@ -48,10 +48,10 @@ void read_damping(NetworkReading& reading, const TomlValue& root) {
   const TomlSection section(reading.context.source, entry->value, "[damping]", "damping");
   const bool is_modal = section.find("modal") != nullptr;
   if (is_modal == (section.find("rayleigh") != nullptr))
-    section.fail_here(rules::one_of_two_keys,
-                      "either modal = 0.02, a ratio of all modes or a list of them, or rayleigh = [a, b] is "
-                      "expected{}",
-                      is_modal ? ", not both" : "");
+    section.fail_here(
+        rules::one_of_two_keys,
+        "expected either modal = 0.02, a ratio for all modes or a list of ratios, or rayleigh = [a, b]{}",
+        is_modal ? ", not both" : "");
   reading.result.network.damping =
       is_modal ? mechanics::DampingModel::modal : mechanics::DampingModel::rayleigh;
   is_modal ? read_modal(reading, section) : read_rayleigh(reading, section);

@@ -24,7 +24,7 @@ using mechanics::NodeKind;
 
 constexpr std::string_view key_of_direction = "along";
 constexpr std::string_view factor_must_stay =
-    "a factor is the same throughout a study; write a study for each value, or run this one again with "
+    "a factor must be the same throughout a study; write a study for each value, or run this one again with "
     "--set";
 
 // What a factor is, as far as its units tell: a rotation times a length [m/rad] is a length, a translation
@@ -55,7 +55,7 @@ struct Factor {
                                    const std::string& found) {
   throw context.source.error_at(
       rules::wrong_dimension, position,
-      "{}: {}, but a factor is a number or a length per radian (such as 1, m or mm)", where, found);
+      "{}: {}, but a factor must be a number or a length per radian (such as 1, m or mm)", where, found);
 }
 
 Factor read_factor(const StudyContext& context, const Parameters& parameters, const std::string& where,
@@ -107,13 +107,13 @@ bool is_angle(const StudyContext& context, const mechanics::Network& network, co
                                  : angle           ? FactorDimension::per_length
                                                    : FactorDimension::length;
     if (factors[i].dimension == fits) continue;
-    throw context.source.error_at(rules::wrong_dimension, factors[i].value.position,
-                                  "{}: with this factor it is not {} like the rest; a {} is taken times {}",
-                                  factors[i].value.where, angle ? "an angle" : "a length",
-                                  turns(i) ? "rotation" : "translation",
-                                  fits == FactorDimension::number   ? "a number"
-                                  : fits == FactorDimension::length ? "a radius (m, mm)"
-                                                                    : "a number per length (1/m)");
+    throw context.source.error_at(
+        rules::wrong_dimension, factors[i].value.position,
+        "{}: with this factor it is not {} like the others; a {} is multiplied by {}", factors[i].value.where,
+        angle ? "an angle" : "a length", turns(i) ? "rotation" : "translation",
+        fits == FactorDimension::number   ? "a number"
+        : fits == FactorDimension::length ? "a radius (m, mm)"
+                                          : "a number per length (1/m)");
   }
   return angle;
 }
@@ -185,9 +185,9 @@ void check_factor_size(const Study& study, const StudyValue& factor, double valu
   const double size = std::abs(value);
   if (size >= smallest && size <= largest) return;
   throw study.source.error_at(rules::out_of_range, factor.position,
-                              "{}: {}; a factor is of a size from {} to {}{}", factor.where,
+                              "{}: {}; the size of a factor must be from {} to {}{}", factor.where,
                               std::isnan(value) ? "has no value" : fmt::format("is {:.6g}", value), smallest,
-                              largest, value == 0.0 ? " (leave the node out)" : "");
+                              largest, value == 0.0 ? " (leave out the node)" : "");
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ StudyDirection read_direction(const StudyContext& context, const Parameters& par
   const auto* shares = table.as<TomlTable>();
   if (!shares || shares->empty())
     section.fail(rules::wrong_type, key_of_direction,
-                 "nodes with their factors are expected: along = {{ roof = 1, ground = -1 }}");
+                 "expected nodes with their factors: along = {{ roof = 1, ground = -1 }}");
   StudyDirection along;
   along.position = table.position;
   std::vector<Factor> factors;
@@ -212,7 +212,7 @@ StudyDirection read_direction(const StudyContext& context, const Parameters& par
       std::ranges::any_of(along.nodes, [](const Node& node) { return node.kind == NodeKind::mass; });
   if (!moves)
     section.fail(rules::wrong_node, key_of_direction,
-                 "a lever with no moving end: none of its nodes is a mass");
+                 "a lever without a moving end: none of its nodes is a mass");
   along.rotational = is_angle(context, network, along.nodes, factors);
   along.twists_ground = twists_ground(along.rotational, along.nodes, factors);
   return along;

@@ -19,7 +19,7 @@ namespace {
 using transient::Record, transient::RecordOf;
 
 // A window of displacements begins and ends at samples, which may be written with fewer digits than these.
-constexpr double at_sample = 1e-6;  // of the interval beside it
+constexpr double at_sample = 1e-6;  // of the interval next to it
 
 // The column of a key, by number or by name.
 WantedColumn wanted_column(const TomlSection& section, const std::string& key, const std::string& role,
@@ -56,7 +56,7 @@ void check_count(const TomlSection& section, const RecordFile& file, const Recor
   const bool has_window = section.find("from") || section.find("to");
   throw data_error(
       rules::too_few, section, file.position,
-      fmt::format("{}: {} sample{}{}; {} at least are needed{}", file.name, count, count == 1 ? "" : "s",
+      fmt::format("{}: {} sample{}{}; at least {} are needed{}", file.name, count, count == 1 ? "" : "s",
                   has_window ? " in the window" : "", least == 3 ? "three" : "two",
                   least == 3 ? ", for the cubic spline through displacements" : ""));
 }
@@ -92,11 +92,10 @@ double nearest_sample(const TomlSection& section, const RecordFile& file, const 
   const auto nearest = std::ranges::min_element(record.time, {}, distance);
   const auto beside = nearest + 1 == record.time.end() ? nearest - 1 : nearest + 1;
   if (distance(*nearest) > at_sample * std::abs(*beside - *nearest))
-    section.fail(
-        rules::wrong_order, key,
-        "{} s is between two samples of {}; a window of displacements begins and ends at samples of their "
-        "spline, here the nearest is at {} s",
-        time, file.name, *nearest);
+    section.fail(rules::wrong_order, key,
+                 "{} s is between two samples of {}; a window of displacements must begin and end at samples "
+                 "of their spline, and the nearest here is at {} s",
+                 time, file.name, *nearest);
   return *nearest;
 }
 
@@ -118,7 +117,7 @@ transient::Interpolation interpolation_of(const TomlSection& section, const Reco
   if (!section.find("interpolation")) return {};
   if (place.of != RecordOf::displacement)
     section.fail(rules::key_without_use, "interpolation",
-                 "is of displacement_of; all other records are straight lines between samples");
+                 "belongs to displacement_of; all other records are straight lines between samples");
   const auto interpolation = section.choice_as<transient::Interpolation>("interpolation");
   if (interpolation == transient::Interpolation::spline) return interpolation;
   const std::string why = transient::why_no_jump(network, find_node(network, place.node)->index);
@@ -164,8 +163,8 @@ Record read_driving_record(const StudyContext& context, const TomlSection& secti
   RawRecord raw = read_columns(std::move(reading), folder);
   if (raw.doubtful > 0)
     throw data_error(rules::doubtful_row, section, file.position,
-                     fmt::format("{}: rows marked as doubtful: {}; a record drives the motion at all "
-                                 "times, and none of its rows can be left out",
+                     fmt::format("{}: rows marked as doubtful: {}; a record drives the motion at all times, "
+                                 "so none of its rows can be left out",
                                  file.name, raw.doubtful));
   std::optional<TomlValue> unit;
   if (const TomlValue* value = section.find("unit")) unit = *value;

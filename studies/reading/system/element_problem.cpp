@@ -25,7 +25,7 @@ Problem problem_of_static_force(const Study& study, std::size_t e, std::span<con
   const double F = sliding.expression.evaluate(parameters), F_s = at_rest.expression.evaluate(parameters);
   if (!(F > 0.0))
     return ElementProblem{rules::out_of_range, &sliding, fmt::format("is {}", with_unit(study, sliding, F)),
-                          "must be > 0 beside a static_force"};
+                          "must be > 0 if there is a static_force"};
   if (!(F_s < F)) return {};
   return ElementProblem{rules::out_of_range, &at_rest,
                         fmt::format("is {}, below the force of {} while it slides",
@@ -69,10 +69,9 @@ Problem problem_of_damping(const Study& study, const StudyValue& value, const Ta
   if (one.empty()) return {};
   for (std::size_t piece = 0; piece + 1 < table.points(); ++piece) {
     if (table.slope(piece) < 0.0)
-      return ElementProblem{
-          rules::several_responses, &value,
-          fmt::format("falls between its points {} and {}", piece + 1, piece + 2),
-          fmt::format("then several responses may exist, and {} needs that there is one", one)};
+      return ElementProblem{rules::several_responses, &value,
+                            fmt::format("falls between its points {} and {}", piece + 1, piece + 2),
+                            fmt::format("then several responses may exist, but {} needs a single one", one)};
   }
   return {};
 }
@@ -88,11 +87,11 @@ Problem problem_of_table(const Study& study, std::size_t e, std::span<const doub
   for (std::size_t i = 0; i < table.points(); ++i) largest = std::max(largest, std::abs(table.force(i)));
   const StudyValue& value = study.values.element[e];
   if (const double N = table.force_at_origin(); std::abs(N) > rounding * largest)
-    return ElementProblem{
-        rules::out_of_range, &value, fmt::format("gives the force {} at 0", with_unit(study, values[1], N)),
-        of.of_velocity ? "a damper at rest has none: a point [0, 0] belongs into the table"
-                       : "it must pass through [0, 0]; take a preload off every force, and apply it as an "
-                         "[[excitation.force]] of order 0"};
+    return ElementProblem{rules::out_of_range, &value,
+                          fmt::format("gives the force {} at 0", with_unit(study, values[1], N)),
+                          of.of_velocity ? "a damper at rest has no force: add the point [0, 0] to the table"
+                                         : "it must pass through [0, 0]; subtract a preload from every "
+                                           "force, and apply it as an [[excitation.force]] of order 0"};
   return of.of_velocity ? problem_of_damping(study, value, table) : Problem{};
 }
 
@@ -121,8 +120,7 @@ Problem problem_of_curve(const Study& study, std::size_t e, std::span<const doub
           rules::several_responses, &values[i],
           fmt::format("is {} after {}", with_unit(study, values[i], number(i)),
                       with_unit(study, values[i], number(i - 2))),
-          fmt::format("where friction falls several responses may exist, and {} needs that there is one",
-                      one)};
+          fmt::format("where friction falls several responses may exist, but {} needs a single one", one)};
   }
   return {};
 }

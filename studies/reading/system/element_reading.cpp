@@ -28,7 +28,7 @@ using mechanics::Node;
 using mechanics::NodeKind;
 using mechanics::ValueKey;
 
-// The type that is written, and that it has the keys beside it.
+// The type that is written, and that it has the keys next to it.
 std::string read_type(const TomlSection& section) {
   const std::string type = section.text("type");
   const std::vector<std::string> known = element_types();
@@ -43,10 +43,10 @@ void check_keys_of_type(const TomlSection& section, const std::string& type) {
   const std::vector<std::string> own = keys_of_type(type);
   for (const std::string& key : keys_of("element")) {
     if (is_of_every_type(key) || !section.find(key) || std::ranges::find(own, key) != own.end()) continue;
-    if (type == iwan) section.fail(rules::unknown_key, key, "an iwan has sliders, no {}", key);
+    if (type == iwan) section.fail(rules::unknown_key, key, "an iwan has sliders, not {}", key);
     const ElementKind& kind = kind_called(type);
     const std::string second = kind.second.exists() ? fmt::format(" and a {}", kind.second.key) : "";
-    section.fail(rules::unknown_key, key, "a {} has a {}{}, no {}", type, kind.value.key, second, key);
+    section.fail(rules::unknown_key, key, "a {} has a {}{}, not {}", type, kind.value.key, second, key);
   }
 }
 
@@ -54,7 +54,7 @@ std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSectio
   const TomlValue& value = section.require("between");
   const auto* ends = value.as<TomlArray>();
   if (!ends || ends->size() != 2)
-    section.fail(rules::wrong_type, "between", "two nodes are expected: between = [\"ground\", \"main\"]");
+    section.fail(rules::wrong_type, "between", "expected two nodes: between = [\"ground\", \"main\"]");
   std::array<Node, 2> nodes;
   std::array<std::string, 2> names;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -71,8 +71,7 @@ std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSectio
   if (nodes[0] == nodes[1]) section.fail(rules::wrong_node, "between", "both ends are at \"{}\"", names[0]);
   if (nodes[0].kind != NodeKind::mass && nodes[1].kind != NodeKind::mass) {
     section.fail(rules::wrong_node, "between",
-                 "neither \"{}\" nor \"{}\" is a mass, so nothing moves the element freely", names[0],
-                 names[1]);
+                 "neither \"{}\" nor \"{}\" is a mass; at least one end must be a mass", names[0], names[1]);
   }
   return nodes;
 }
@@ -90,8 +89,8 @@ bool is_rotational(const NetworkReading& reading, const TomlSection& section,
     if (!any || rotates(ends[i]) || !is_free(ends[i])) continue;
     const std::size_t turning = ends[1 - i].index;
     section.fail(rules::wrong_node, "between",
-                 "\"{0}\" turns and the other end moves along; join them by the radius at which they meet: "
-                 "along = {{ {0} = {{ value = 0.1, unit = \"m\" }}, ... }}",
+                 "\"{0}\" turns but the other end moves in a line; join them by the radius at which they "
+                 "meet: along = {{ {0} = {{ value = 0.1, unit = \"m\" }}, ... }}",
                  network.masses[turning]);
   }
   return any;
@@ -107,7 +106,7 @@ struct ReadDirection {
 ReadDirection read_ends(const NetworkReading& reading, const TomlSection& section) {
   if (section.find("between") && section.find("along"))
     section.fail(rules::one_of_two_keys, "along",
-                 "the element is between two nodes already; give one of the two");
+                 "the element is already between two nodes; give only one of the two");
   if (!section.find("between") && !section.find("along"))
     section.fail_here(rules::one_of_two_keys,
                       "the key \"between\" is missing (or \"along\", for a combination of coordinates)");

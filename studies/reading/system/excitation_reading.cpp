@@ -24,7 +24,8 @@ using mechanics::ExcitationKind;
 using mechanics::Node;
 using mechanics::NodeKind;
 
-// Each order has two oscillators in the flow: a hundred take some 15 ms an orbit, 200 some 80 ms and 200 MB.
+// Each order has two oscillators in the flow: a hundred take about 15 ms an orbit, 200 about 80 ms and 200
+// MB.
 constexpr std::size_t most_orders = 200;
 
 const std::string force_path = "excitation.force";
@@ -47,7 +48,7 @@ std::string key_of_amplitude(const TomlSection& section) {
   for (const char* key : {"amplitude", "velocity", "acceleration"}) {
     if (!section.find(key)) continue;
     if (!given.empty())
-      section.fail(rules::one_of_two_keys, key, "the motion is given by its {} already",
+      section.fail(rules::one_of_two_keys, key, "the motion is already given by its {}",
                    given == "amplitude" ? "displacement, the key \"amplitude\"" : given);
     given = key;
   }
@@ -123,7 +124,7 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
                  suggestion(name, network.masses));
   }
   if (node->kind != NodeKind::mass) {
-    section.fail(rules::wrong_node, named, "a force acts on a mass, and \"{}\" is {}", name,
+    section.fail(rules::wrong_node, named, "a force must act on a mass, but \"{}\" is {}", name,
                  node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
   }
   read_profile(section);
@@ -153,11 +154,12 @@ void name_support(NetworkReading& reading, const TomlSection& section, const std
     network.prescribed.push_back(name);
     reading.names.push_back({name, fmt::format("the node \"{}\" of prescribed motion", name)});
   } else if (node->kind == NodeKind::ground) {
-    section.fail(rules::wrong_node, key, "\"ground\" is fixed; give the moving support a name of its own");
+    section.fail(rules::wrong_node, key, "\"ground\" is fixed; give the moving support a different name");
   } else if (node->kind == NodeKind::mass) {
     section.fail(
         rules::wrong_node, key,
-        "\"{}\" is a mass, whose motion is sought; a node of prescribed motion has a name of its own", name);
+        "\"{}\" is a mass, whose motion is unknown; give the node of prescribed motion a different name",
+        name);
   }
 }
 
@@ -175,10 +177,9 @@ int lowest_order(const NetworkReading& reading, const TomlSection& section, bool
   }
   if (lowest == std::numeric_limits<int>::max()) {
     if (constant_will_do && !reading.result.network.excitations.empty()) return 1;
-    section.fail_here(
-        rules::missing_section,
-        "needs a [[excitation.force]] or [[excitation.motion]] of order 1 or more: nothing shakes the "
-        "system");
+    section.fail_here(rules::missing_section,
+                      "nothing excites the system: it needs an [[excitation.force]] or [[excitation.motion]] "
+                      "of order 1 or more");
   }
   return lowest;
 }
@@ -203,8 +204,8 @@ void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection
   }
   if (std::all_of(orders.begin(), orders.end(), [&](int order) { return order == orders.front(); })) return;
   section.fail_here(rules::missing_key,
-                    "the key \"reference_order\" is missing: the excitation has several orders, and "
-                    "the hysteretic element \"{}\" has its loss factor at reference_order x frequency",
+                    "the key \"reference_order\" is missing: the excitation has several orders, and the loss "
+                    "factor of the hysteretic element \"{}\" holds at reference_order x frequency",
                     hysteretic->name);
 }
 

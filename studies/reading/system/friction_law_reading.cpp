@@ -40,7 +40,7 @@ FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
   keep_key_to(section, "table", FrictionLaw::stribeck, law);
   if (law == FrictionLaw::stribeck && section.find(kind.value.key))
     section.fail(rules::one_of_two_keys, kind.value.key,
-                 "its table already says the friction; give one of the two");
+                 "its table already gives the friction; give only one of the two");
   return law;
 }
 
@@ -61,8 +61,8 @@ void check_one_law(const NetworkReading& reading, const TomlSection& section, co
                       own ? fmt::format("element \"{}\"", other->name) : "this element");
   }
   const std::string message = fmt::format(
-      "\"{}\"{}, but element \"{}\" follows \"{}\"; all coulomb elements of a study follow the "
-      "exact law, or all a smooth one",
+      "\"{}\"{}, but element \"{}\" follows \"{}\"; all coulomb elements of a study must follow the exact "
+      "law, or all a smooth one",
       name_of(law), section.find("law") ? "" : " by default", other->name, name_of(other->law));
   section.find("law") ? section.fail(rules::wrong_law, "law", "{}", message)
                       : section.fail_here(rules::wrong_law, "{}", message);

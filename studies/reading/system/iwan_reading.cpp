@@ -22,7 +22,7 @@ Quantity force_of(bool rotational) {
 std::vector<StudyValue> read_list(NetworkReading& reading, const TomlSection& section, const char* key,
                                   Quantity quantity, Range range) {
   const auto* list = section.require(key).as<TomlArray>();
-  if (!list) section.fail(rules::wrong_type, key, "a list is expected, a value for each slider");
+  if (!list) section.fail(rules::wrong_type, key, "expected a list with a value for each slider");
   if (list->empty()) section.fail(rules::empty, key, "has no slider");
   std::vector<StudyValue> values;
   for (const TomlValue& value : *list) {
@@ -36,14 +36,14 @@ std::vector<StudySlider> listed_sliders(NetworkReading& reading, const TomlSecti
                                         bool rotational) {
   for (const char* key : {"stiffness", "force", "elements", "chi"}) {
     if (section.find(key))
-      section.fail(rules::key_without_use, key, "belongs to a distribution; the sliders are listed here");
+      section.fail(rules::key_without_use, key, "belongs to a distribution, but the sliders are listed here");
   }
   const auto stiffnesses =
       read_list(reading, section, "stiffnesses", stiffness_of(rotational), range_of_type(iwan, "stiffness"));
   const auto forces =
       read_list(reading, section, "forces", force_of(rotational), range_of_type(iwan, "force"));
   if (stiffnesses.size() != forces.size())
-    section.fail(rules::wrong_length, "forces", "{} for {} stiffnesses; each slider has one of both",
+    section.fail(rules::wrong_length, "forces", "{} for {} stiffnesses; each slider needs one of each",
                  forces.size(), stiffnesses.size());
   std::vector<StudySlider> sliders;
   for (std::size_t i = 0; i < forces.size(); ++i) sliders.push_back({stiffnesses[i], forces[i]});
@@ -69,7 +69,7 @@ std::vector<StudySlider> spread_sliders(NetworkReading& reading, const TomlSecti
   for (const char* key : {"stiffnesses", "forces"}) {
     if (section.find(key))
       section.fail(rules::one_of_two_keys, key,
-                   "the element has a distribution already; give one of the two");
+                   "the element already has a distribution; give only one of the two");
   }
   const bool is_power = section.choice("distribution") == "power";
   const double chi = read_exponent(section, is_power);

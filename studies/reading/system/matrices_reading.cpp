@@ -19,8 +19,7 @@ constexpr double kIndefinite = 1e-6;   // of an eigenvalue of the matrix scaled 
 // Names of the degrees of freedom: masses of the network from now on.
 std::vector<std::size_t> read_names(NetworkReading& reading, const TomlSection& section) {
   const auto* list = section.require("names").as<TomlArray>();
-  if (!list)
-    section.fail(rules::wrong_type, "names", "a list of names is expected: names = [\"u1\", \"u2\"]");
+  if (!list) section.fail(rules::wrong_type, "names", "expected a list of names: names = [\"u1\", \"u2\"]");
   if (list->empty()) section.fail(rules::empty, "names", "is an empty list");
   std::vector<std::size_t> nodes;
   for (const TomlValue& each : *list) {
@@ -28,9 +27,10 @@ std::vector<std::size_t> read_names(NetworkReading& reading, const TomlSection& 
     const std::string name = read_identifier(section.source(), where, each);
     for (const auto& taken : reading.names) {
       if (taken.name != name) continue;
-      throw section.source().error_at(rules::name_taken, each.position,
-                                      "{}: \"{}\" is taken by {}; nodes and elements need different names",
-                                      where, name, taken.owner);
+      throw section.source().error_at(
+          rules::name_taken, each.position,
+          "{}: \"{}\" is already the name of {}; nodes and elements need different names", where, name,
+          taken.owner);
     }
     reading.names.push_back({name, section.where()});
     nodes.push_back(reading.result.network.masses.size());
@@ -73,7 +73,7 @@ void check_definite(const TomlSection& section, const std::string& key, const Ei
   const bool is_mass = key == "mass";
   if (is_mass ? least > 1e-13 : least >= -kIndefinite) return;
   section.fail(rules::wrong_matrix, key,
-               "is not positive {}: its least eigenvalue, scaled by its diagonal, is {:.3g}",
+               "is not positive {}: its smallest eigenvalue, scaled by its diagonal, is {:.3g}",
                is_mass ? "definite" : "semidefinite", least);
 }
 

@@ -48,8 +48,8 @@ void check_number_of_contacts(const NetworkReading& reading, const TomlSection& 
   if (contacts <= periodic::kMostContacts) return;
   section.fail_here(
       rules::too_large,
-      "the {}th friction contact; at most {} are followed exactly (law = \"arctan\" has no limit)", contacts,
-      periodic::kMostContacts);
+      "the {}th friction contact; at most {} can be followed exactly (law = \"arctan\" has no limit)",
+      contacts, periodic::kMostContacts);
 }
 
 void check_number_of_states(const NetworkReading& reading, const TomlSection& section) {
@@ -62,8 +62,8 @@ void check_number_of_states(const NetworkReading& reading, const TomlSection& se
   if (states <= most_states) return;
   section.fail_here(
       rules::too_large,
-      "with it the system has {} states: two a mass, one a spring in series with a damper or slider; "
-      "at most {}, as its matrices are full: reduce it to the points of interest",
+      "with it the system has {} states: two per mass, one per spring in series with a damper or slider; at "
+      "most {} are possible, because its matrices are full: reduce it to the points of interest",
       states, most_states);
 }
 

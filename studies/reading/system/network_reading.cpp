@@ -34,8 +34,9 @@ void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t numb
   check_number_of_states(reading, section);
   const bool rotates = section.find("inertia") != nullptr;
   if (rotates && section.find("mass"))
-    section.fail(rules::one_of_two_keys, "inertia",
-                 "it has a mass already; what both moves along and turns is two [[mass]], one with each");
+    section.fail(
+        rules::one_of_two_keys, "inertia",
+        "it already has a mass; what both moves in a line and turns needs two [[mass]], one for each");
   reading.result.network.rotation.push_back(rotates);
   reading.result.values.mass.push_back(rotates ? read_value(reading, section, "inertia", Quantity::inertia)
                                                : read_value(reading, section, "mass", Quantity::mass));
@@ -89,7 +90,8 @@ void take_name(NetworkReading& reading, const TomlSection& section, const std::s
   for (const auto& taken : reading.names) {
     if (taken.name != name) continue;
     section.fail(rules::name_taken, "name",
-                 "the name is taken by {}; nodes, elements and signals need different names", taken.owner);
+                 "the name is already that of {}; nodes, elements and signals need different names",
+                 taken.owner);
   }
   reading.names.push_back({name, owner});
 }
@@ -207,7 +209,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
     throw context.source.error_at(
         rules::missing_section, root.position,
         "the study has no [[mass]] and no [[matrices]]: nothing moves{}",
-        kind == StudyKind::identify ? "; leave out all of the system, or add its masses" : "");
+        kind == StudyKind::identify ? "; leave out the whole system, or add its masses" : "");
   if (is_forced) refuse_records(context, excitation->value, kind);
   if (is_forced) read_prescribed_nodes(reading, excitation->value);
   number = 0;

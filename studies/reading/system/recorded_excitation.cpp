@@ -32,8 +32,8 @@ constexpr std::array place_keys{
 std::string why_no_record(StudyKind kind) {
   if (kind == StudyKind::identify) return "its measured excitations are columns of [[identify.record]]";
   return fmt::format(
-      "{} is about periodic responses, and a record does not repeat; it is for kind = "
-      "\"transient\" or \"tune\"",
+      "{} needs periodic responses, but a record does not repeat; use it with kind = \"transient\" or "
+      "\"tune\"",
       kind_noun(kind));
 }
 
@@ -45,7 +45,7 @@ mechanics::Node driven_mass(const NetworkReading& reading, const TomlSection& se
     section.fail(rules::unknown_name, place.key, "no mass is called \"{}\"{}", place.node,
                  suggestion(place.node, network.masses));
   if (node->kind != NodeKind::mass)
-    section.fail(rules::wrong_node, place.key, "a force acts on a mass, and \"{}\" is {}", place.node,
+    section.fail(rules::wrong_node, place.key, "a force must act on a mass, but \"{}\" is {}", place.node,
                  node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
   return *node;
 }
@@ -73,14 +73,14 @@ RecordedPlace place_of(const TomlSection& section) {
   for (const PlaceKey& each : place_keys) {
     if (!section.find(each.key)) continue;
     if (!place.key.empty())
-      section.fail(rules::one_of_two_keys, each.key, "it is given as \"{}\" already; one record drives one",
-                   place.key);
+      section.fail(rules::one_of_two_keys, each.key,
+                   "it is already given as \"{}\"; a record drives only one", place.key);
     place = {each.key, section.text(each.key), each.of};
   }
   if (place.key.empty())
     section.fail_here(rules::missing_key,
-                      "what it drives is missing: acceleration_of, velocity_of or displacement_of a support, "
-                      "or force_on a mass");
+                      "what it drives is missing: give acceleration_of, velocity_of or displacement_of a "
+                      "support, or force_on a mass");
   return place;
 }
 

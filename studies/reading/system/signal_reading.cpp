@@ -9,7 +9,7 @@ namespace frahm::studies {
 
 void read_signals(NetworkReading& reading, const TomlValue& root) {
   const TomlEntry* output = find_entry(root, "output");
-  if (!output || !output->value.as<TomlTable>()) return;  // what else is wrong is told as it is read
+  if (!output || !output->value.as<TomlTable>()) return;  // what else is wrong is reported as it is read
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(reading.context.source, output->value, "output.signal")) {
     const TomlSection section(reading.context.source, *table,

@@ -8,7 +8,7 @@
 #include "studies/reading/study/characteristic.hpp"
 #include "studies/reading/study/study_values.hpp"
 
-// Elements that some kinds of study do not follow, or not beside others.
+// Elements that some kinds of study do not follow, or not together with others.
 namespace frahm::studies {
 namespace {
 
@@ -46,9 +46,10 @@ void refuse_smooth_laws(const Study& study, std::string_view what_is_exact) {
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     if (!mechanics::has_smooth_law(study.network.elements[e])) continue;
     const SmoothKey key = smooth_key(study, e);
-    throw study.source.error_at(rules::wrong_law, key.position,
-                                "{}: the law \"{}\" is integrated, for sweeps only; {} follows exact laws",
-                                key.where, key.law, what_is_exact);
+    throw study.source.error_at(
+        rules::wrong_law, key.position,
+        "{}: the law \"{}\" is integrated, which is for sweeps only; {} needs exact laws", key.where, key.law,
+        what_is_exact);
   }
 }
 
@@ -57,14 +58,15 @@ void refuse_mixed_laws(const Study& study) {
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!mechanics::has_smooth_law(elements[e])) continue;
     const SmoothKey key = smooth_key(study, e);
-    refuse_bends(study, fmt::format("it stands beside exact laws alone, and element \"{}\" follows \"{}\"",
-                                    elements[e].name, key.law));
+    refuse_bends(study,
+                 fmt::format("it can be combined with exact laws only, but element \"{}\" follows \"{}\"",
+                             elements[e].name, key.law));
     for (const mechanics::Element& other : elements) {
       if (!mechanics::has_contact(other) || mechanics::has_smooth_law(other)) continue;
       throw study.source.error_at(
           rules::wrong_law, key.position,
           "{}: its motion is integrated, but element \"{}\" is followed exactly{}", key.where, other.name,
-          mechanics::kind_of(other).can_be_smoothed() ? "; give that one the law \"arctan\"" : "");
+          mechanics::kind_of(other).can_be_smoothed() ? "; give that element the law \"arctan\"" : "");
     }
   }
 }
@@ -78,7 +80,7 @@ void refuse_several_responses(const Study& study, const std::string& what_needs_
     const bool depends_on_numbers = of.kind == StudyCharacteristic::Kind::none || of.of_velocity;
     if (!has_value && depends_on_numbers) continue;
     throw study.source.error_at(rules::several_responses, has_value ? value.position : of.position,
-                                "{}: with it several responses may exist, and {} needs that there is one",
+                                "{}: with it several responses may exist, but {} needs a single one",
                                 has_value ? value.where : of.where, what_needs_one);
   }
 }

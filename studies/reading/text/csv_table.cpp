@@ -24,7 +24,7 @@ std::string text_of(const std::filesystem::path& path, const std::string& name) 
   std::string text = read_file(path, name);
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   if (text.find('\0') != std::string::npos)
-    throw StudyError(rules::not_text, "{}: is no text in UTF-8: it contains zero bytes", name);
+    throw StudyError(rules::not_text, "{}: is not UTF-8 text: it contains zero bytes", name);
   return text;
 }
 
@@ -97,11 +97,13 @@ void check_even(const std::vector<CsvRow>& rows, const std::string& name) {
     if (alike && row.cells.size() == first.cells.size()) continue;
     const std::string hint = row.separator == ',' ? ", and decimals are written with a point" : "";
     if (alike)
-      throw StudyError(rules::wrong_length, "{}:{}: {} cells, but {} in line {}; all rows have as many{}",
-                       name, row.line, row.cells.size(), first.cells.size(), first.line, hint);
-    throw StudyError(
-        rules::wrong_row, "{}:{}: separated by {}, but line {} by {}; all rows are separated alike{}", name,
-        row.line, separator_name(row.separator), first.line, separator_name(first.separator), hint);
+      throw StudyError(rules::wrong_length,
+                       "{}:{}: {} cells, but {} in line {}; all rows must have the same number{}", name,
+                       row.line, row.cells.size(), first.cells.size(), first.line, hint);
+    throw StudyError(rules::wrong_row,
+                     "{}:{}: separated by {}, but line {} by {}; all rows must have the same separator{}",
+                     name, row.line, separator_name(row.separator), first.line,
+                     separator_name(first.separator), hint);
   }
 }
 

@@ -22,8 +22,8 @@ struct CsvRow {
 // Throws StudyError for a file that cannot be read, is not text or has an open quote.
 std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::string& name);
 
-// Refuses rows that have not as many cells or are not separated alike: else a decimal comma may have cut a
-// number in two.  rows: not empty.  Throws StudyError without a place in the study.
+// Refuses rows that have not as many cells or are not separated alike: otherwise a decimal comma may have cut
+// a number in two.  rows: not empty.  Throws StudyError without a place in the study.
 void check_even(const std::vector<CsvRow>& rows, const std::string& name);
 
 // Whether a row holds the names of the columns: no cell is a number, with a decimal point or a comma.

@@ -6,7 +6,7 @@ namespace frahm::studies {
 namespace {
 
 // U+0000 to U+001F, U+007F, and U+0080 to U+009F, which in UTF-8 is C2 80 to C2 9F; and what turns the
-// direction of the text behind it: U+200E and U+200F, U+202A to U+202E, U+2066 to U+2069.
+// direction of the text after it: U+200E and U+200F, U+202A to U+202E, U+2066 to U+2069.
 bool is_control(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   if (character.size() == 1) return byte(0) < 0x20U || byte(0) == 0x7FU;

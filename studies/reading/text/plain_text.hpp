@@ -13,7 +13,7 @@ std::string plain_text(std::string_view text);
 // A text for a message: what is longer than so many bytes is cut between two characters, and ends in "...".
 std::string shortened(std::string_view text, std::size_t most);
 
-// Whether a text is UTF-8 without any control character: a path or an option that can be told, stored and
+// Whether a text is UTF-8 without any control character: a path or an option that can be printed, stored and
 // read.
 bool is_plain_line(std::string_view text);
 

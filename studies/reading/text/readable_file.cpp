@@ -20,7 +20,7 @@ namespace {
   throw StudyError(rules::unreadable_file, "{}: cannot be read: {}", name, why);
 }
 
-// Of all threads.
+// For all threads.
 struct FilesRead {
   std::mutex turn;
   std::set<std::filesystem::path> paths;
@@ -36,7 +36,7 @@ std::ifstream open_file(const std::filesystem::path& path, const std::string& na
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (kind == FileKind::regular && std::filesystem::exists(status) &&
       !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status))
-    refuse(name, "it is no regular file but a pipe or a device");
+    refuse(name, "it is not a regular file but a pipe or a device");
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(name, std::strerror(errno));
   if (std::filesystem::is_directory(status)) refuse(name, "it is a directory");
@@ -45,7 +45,7 @@ std::ifstream open_file(const std::filesystem::path& path, const std::string& na
   return file;
 }
 
-// Of a file that may have no end what a study may have (1 MiB), and a little more.
+// From a file that may have no end: what a study may have (1 MiB), and a little more.
 std::string begin_of(std::ifstream& file) {
   constexpr std::size_t most = std::size_t{2} << 20;  // bytes
   std::string text(most, '\0');

@@ -26,7 +26,7 @@ inline constexpr Rule other_kind{"other_kind"};  // belongs to another kind of s
 inline constexpr Rule unknown_key{"unknown_key"};
 inline constexpr Rule missing_key{"missing_key"};
 inline constexpr Rule one_of_two_keys{"one_of_two_keys"};  // one is needed, or they exclude each other
-inline constexpr Rule key_without_use{"key_without_use"};  // without effect beside the other choices
+inline constexpr Rule key_without_use{"key_without_use"};  // without effect with the other choices
 
 // Values.
 inline constexpr Rule wrong_type{"wrong_type"};

@@ -7,8 +7,8 @@
 namespace frahm::studies {
 
 // Text to add to a message about an unknown name: `; did you mean "stiffness"?` when one of the valid names
-// is near (few letters changed, swapped, missing or added; case ignored), else `; known: ...` when there are
-// few enough to print, else nothing.
+// is near (few letters changed, swapped, missing or added; case ignored), otherwise `; known: ...` when there
+// are few enough to print, otherwise nothing.
 std::string suggestion(std::string_view found, std::span<const std::string> valid);
 
 // Whether a name is of the form [A-Za-z][A-Za-z0-9_]*.

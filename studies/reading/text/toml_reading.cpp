@@ -62,9 +62,9 @@ std::string plain(std::string_view description) {
   const std::size_t open = text.find('\''), close = text.rfind('\'');
   const std::string quoted = open < close ? text.substr(open + 1, close - open - 1) : "";
   if (text.starts_with("cannot redefine existing"))
-    return fmt::format("\"{}\" is given already", quoted.substr(0, quoted.find('\'')));
+    return fmt::format("\"{}\" is already given", quoted.substr(0, quoted.find('\'')));
   if (text.find("could not be interpreted as a value") != std::string::npos)
-    return fmt::format("\"{}\" is no value: a number too large, or a text without quotes", quoted);
+    return fmt::format("\"{}\" is not a value: a number too large, or a text without quotes", quoted);
   return text;
 }
 

@@ -10,7 +10,7 @@ namespace frahm::studies {
 // headings, two deep, the rest in line. root: a TomlTable without dates.
 std::string toml_text(const TomlValue& root);
 
-// A value in line, as it stands behind a key: `[1, 2]`, `{ value = 3, unit = "mm" }`.
+// A value in line, as it stands after a key: `[1, 2]`, `{ value = 3, unit = "mm" }`.
 std::string toml_in_line(const TomlValue& value);
 
 }  // namespace frahm::studies

@@ -245,7 +245,7 @@ TEST_CASE("Of a hundred noisy loops the intervals hold the truth in ninety at le
 
 TEST_CASE("A loop that is none says why") {
   Loop loop = loop_of(viscous, {800.0, 6.0}, {}, 17.0, 1.0, 40);
-  CHECK_THAT(hysteresis_loop(loop.traces).failure, Contains("two periods at least"));
+  CHECK_THAT(hysteresis_loop(loop.traces).failure, Contains("at least two periods"));
   const Loop coarse = loop_of(viscous, {800.0, 6.0}, {}, 17.0, 5.0, 3);
   CHECK_THAT(hysteresis_loop(coarse.traces).failure, Contains("four samples in each"));
   std::fill(loop.traces.displacement.begin(), loop.traces.displacement.end(), 1.0);

@@ -226,7 +226,7 @@ TEST_CASE("a record that is no tile's ends the assembly with an error and leaves
         .append(bad, engine::Bytes(100));
     const auto before = names_in(folder / "");
     CHECK_THROWS_WITH(assembled(plan, options_of(folder / "map.h5", threads)),
-                      Contains("shorter than it says"));
+                      Contains("shorter than its header says"));
     CHECK(names_in(folder / "") == before);
   }
 }

@@ -113,7 +113,7 @@ values = [0.1, 0.2]
 TEST_CASE("A point tells its derivatives, exact, by differences and how far they are apart") {
   PointOptions options{.study = study_path("den_hartog"), .at = {"r=0.9", "f=0.1"}, .gradient = true};
   const std::string text = tell(options);
-  CHECK(text.find("Derivatives by parameters in SI units") != std::string::npos);
+  CHECK(text.find("Derivatives with respect to parameters in SI units") != std::string::npos);
   CHECK(text.find("\nby f ") != std::string::npos);
   CHECK(text.find("by differences") != std::string::npos);
   options.json = true;

@@ -58,7 +58,7 @@ TEST_CASE("Samples that are missing are told with their place and are no coarse 
   folder.write("gap.csv", rows);
   const std::string text = told(folder, "file = \"gap.csv\"\n", 2.0);
   CHECK_THAT(text, Contains("warning: acceleration of \"base\" by gap.csv: no sample from 0.5 to 5.5 s, 50 "
-                            "times its usual interval of 0.1 s; a straight line between stands for them\n"));
+                            "times its usual interval of 0.1 s; a straight line replaces them\n"));
   CHECK_THAT(text, !Contains("samples in a period"));
   folder.write("uneven.csv", "0,0\n0.1,1\n0.2,-1\n1,1\n1.1,0\n");
   CHECK_THAT(told(folder, "file = \"uneven.csv\"\n", 20.0), !Contains("no sample"));

@@ -112,10 +112,10 @@ TEST_CASE("a value in another unit is the same value; a changed one is told as t
   // 181 values of which the last bits differ.
   CHECK(changes(in("80", "unit = \"rpm\"\nfrom = 300\nto = 1200\npoints = 181\n"),
                 in("80", "unit = \"Hz\"\nfrom = 5\nto = 20\npoints = 181\n")) ==
-        Lines{"axis \"w\": its unit: rpm, now Hz: the same but for rounding"});
+        Lines{"axis \"w\": its unit: rpm, now Hz: the same apart from rounding"});
   CHECK(changes(in("{ value = 0.3, unit = \"kg\" }", hertz),
                 in("{ value = 300.00000000000006, unit = \"g\" }", hertz)) ==
-        Lines{"mass \"m\": mass: 0.3 kg, now 300.00000000000006 g: the same but for rounding"});
+        Lines{"mass \"m\": mass: 0.3 kg, now 300.00000000000006 g: the same apart from rounding"});
   CHECK(changes(in("80", hertz), in("{ value = 90, unit = \"kg\" }", with(rpm, "120", "180"))) ==
         Lines{"mass \"m\": mass: 80, now 90 kg", "axis \"w\": to: 2 Hz, now 180 rpm"});
 }

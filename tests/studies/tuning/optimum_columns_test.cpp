@@ -196,7 +196,7 @@ TEST_CASE("names that would stand twice in the record are refused, with the name
   for (std::size_t i = 0; (i = text.find("zeta", i)) != std::string::npos; i += 5)
     text.replace(i, 4, "start");
   CHECK_THROWS_WITH(plan_tuning(parse(text), {}),
-                    Catch::Contains("one name twice") && Catch::Contains("start"));
+                    Catch::Contains("the same name twice") && Catch::Contains("start"));
   CHECK_THROWS_WITH(plan_tuning(parse(classical + "[[column]]\nname = \"f\"\nvalue = \"f\"\n"), {}),
                     Catch::Contains("'f'"));
   CHECK_NOTHROW(plan_tuning(parse(classical), {}));

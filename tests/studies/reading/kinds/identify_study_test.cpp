@@ -268,7 +268,7 @@ TEST_CASE("columns of an HDF5 file are its datasets, whose padding and doubtful 
   check_all(column(part, "amplitude"), {0.02, 0.018});
   CHECK(part.doubtful == 1);
   CHECK_THAT(complaint_about(folder, text("extremum = \"decay/main_extremum\", doubtful = \"decay/mark\"")),
-             Catch::Contains("turning points come in turn"));
+             Catch::Contains("turning points follow each other"));
   CHECK_THAT(complaint_about(folder, text("extremum = \"decay/gap\"")),
              Catch::Contains("earlier.h5: \"decay/gap\": value 2: nan is not a finite number"));
   CHECK_THAT(complaint_about(folder, text("extremum = \"decay/mian\"")), Catch::Contains("has no \"mian\""));
@@ -331,17 +331,16 @@ TEST_CASE("earlier estimates that fix nothing, or contradict the study, are refu
                                        identify("grey_box", "fixed_from = " + files + "\n") +
                                        record("free.csv", of_record) + fitted("c"));
   };
-  CHECK_THAT(
-      complaint("\"other.h5\""),
-      Catch::Contains("other.h5: none of its estimates is a number parameter of this study that is not "
-                      "fitted; it has zeta, the study k, F, I, R and x0"));
+  CHECK_THAT(complaint("\"other.h5\""),
+             Catch::Contains("other.h5: none of its estimates is a parameter of this study that is a number "
+                             "and not fitted; it has zeta, the study has k, F, I, R and x0"));
   CHECK_THAT(complaint("\"metres.h5\""),
              Catch::Contains("the estimate \"F\": the unit \"m\" is that of a length"));
   CHECK_THAT(complaint("\"open.h5\""), Catch::Contains("\"F\" was not determined by its data"));
-  CHECK_THAT(complaint("[\"good.h5\", \"good.h5\"]"), Catch::Contains("stands in an earlier file"));
+  CHECK_THAT(complaint("[\"good.h5\", \"good.h5\"]"), Catch::Contains("is also in an earlier file"));
   CHECK_THAT(complaint("\"good.h5\"", "set = { F = 2 }\n"), Catch::Contains("that the record \"free\" sets"));
   CHECK_THAT(complaint("\"below.h5\""), Catch::Contains("force: is -1 N at F = -1 N; must be >= 0"));
-  CHECK_THAT(complaint("\"map.h5\""), Catch::Contains("map.h5: is the result of no identification"));
+  CHECK_THAT(complaint("\"map.h5\""), Catch::Contains("map.h5: is not the result of an identification"));
   CHECK_THAT(complaint("\"free.csv\""), Catch::Contains("[identify]: fixed_from: "));
 }
 

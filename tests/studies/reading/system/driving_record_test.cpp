@@ -115,7 +115,7 @@ TEST_CASE("A record in an HDF5 file is read by the paths of its datasets") {
       "acceleration_of = \"base\"\nfile = \"quake.h5\"\ntime = \"shake/time\"\ncolumn = \"shake/ns\"\n"));
   CHECK(study.transient()->records.at(0).records.at(0).values == std::vector<double>{1.0, 2.0, 4.0});
   CHECK_THROWS_WITH(read.study(record("acceleration_of = \"base\"\nfile = \"quake.h5\"\n")),
-                    Catch::Contains("record of \"base\": time: the path of a dataset is expected"));
+                    Catch::Contains("record of \"base\": time: expected the path of a dataset"));
 }
 
 TEST_CASE("The fingerprint of a study is that of its records' samples, not of their paths") {
@@ -166,7 +166,7 @@ TEST_CASE("Only displacements have a choice between samples, and no straight lin
   const Read read;
   CHECK_THROWS_WITH(
       read.study(record("acceleration_of = \"base\"\nfile = \"quake.csv\"\ninterpolation = \"linear\"\n")),
-      Catch::Contains("interpolation: is of displacement_of"));
+      Catch::Contains("interpolation: belongs to displacement_of"));
   read.folder.write("pull.csv", pull);
   const std::string inerter =
       "[transient]\n[[element]]\nname = \"b\"\ntype = \"inerter\"\nbetween = [\"base\", \"roof\"]\n"

@@ -88,7 +88,7 @@ TEST_CASE("a cell is a number as a whole or not at all") {
 
 TEST_CASE("what is no table of texts is refused with its line") {
   CHECK_THAT(complaint_about("a,b\n1,\"2\n"), Catch::StartsWith("data.csv:2: a quote is not closed"));
-  CHECK_THAT(complaint_about(std::string("a\0b\n", 4)), Catch::StartsWith("data.csv: is no text in UTF-8"));
+  CHECK_THAT(complaint_about(std::string("a\0b\n", 4)), Catch::StartsWith("data.csv: is not UTF-8 text"));
   CHECK(complaint_about("") == "none");
   CHECK_THROWS_AS(read_csv("no_such_file.csv", "no_such_file.csv"), StudyError);
   CHECK_THROWS_AS(read_csv(std::filesystem::temp_directory_path(), "folder"), StudyError);
