@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "studies/reading/kinds/design_reading.hpp"
 #include "studies/reading/kinds/tune_samples.hpp"
@@ -282,7 +283,10 @@ tuning::Band read_range(const TomlSection& section, double si_factor) {
   if (!(from <= to))
     section.fail(rules::wrong_order, "to",
                  "{} is below \"from\" = {}; a band runs from the lower end to the upper", to, from);
-  return {from * si_factor, to * si_factor};
+  // Ends that rounding hardly tells apart are one frequency: no number lies between them to be scanned.
+  constexpr double one_frequency = 1e-14;
+  const bool is_one = to - from <= one_frequency * std::abs(to);
+  return {from * si_factor, (is_one ? from : to) * si_factor};
 }
 
 StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key,

@@ -83,6 +83,14 @@ TEST_CASE(
   CHECK(frahm::studies::not_proved(parse(classical)).empty());
 }
 
+TEST_CASE("a band whose ends are one number to rounding is one frequency: its scan did not end") {
+  std::string text = small_tunings::classical;
+  const std::string ends = "from = 0.7, to = 1.3";
+  text.replace(text.find(ends), ends.size(), "from = 0.9, to = 0.9000000000000001");
+  const Study study = parse_study(text, "study.toml");
+  CHECK(study.tune()->band->range.from == study.tune()->band->range.to);
+}
+
 TEST_CASE("bands, bounds, knots and slopes are in the units the study gives, SI within") {
   const Study study = parse(rig + scheduled);
   const double rpm = std::numbers::pi / 30.0;
