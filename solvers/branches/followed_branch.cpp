@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "solvers/branches/branch_walk.hpp"
+#include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/shooting.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -50,10 +52,10 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
     observables_.fill_missing(Status::failed, 0, point.quantities);
     return point;
   }
-  const AnyOrbit orbit = map_.orbit(y, std::move(shot));
+  AnyOrbit orbit = map_.orbit(y, std::move(shot));
   observables_.forget();
   observables_.set_system(map_.system());
-  if (!observables_.is_balanced(orbit, map_.system())) {
+  if (!observables_.is_balanced(orbit, map_.system()) && !balances_again(orbit)) {
     observables_.fill_missing(Status::failed, 0, point.quantities);
     return point;
   }
@@ -63,6 +65,20 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   point.multiple = orbit.multiple;
   point.residual = orbit.residual;
   return point;
+}
+
+// Where an orbit is far larger than what drives it, the corrector leaves a residual that its energies show:
+// the orbit is found once more, as that of a point.
+bool FollowedBranch::balances_again(AnyOrbit& orbit) {
+  constexpr double kSame = 1e-6;  // of its size
+  AnyOrbit again = orbit;
+  Shooting<kAnySize, kAnySize>(map_.flow()).find(again);
+  const double moved = map_.flow().equations().energy_norm(again.z - orbit.z);
+  if (!again.is_found() || moved > kSame * map_.flow().energy_scale(orbit.z)) return false;
+  judge_stability(map_.flow(), again);
+  orbit = std::move(again);
+  observables_.forget();
+  return observables_.is_balanced(orbit, map_.system());
 }
 
 bool FollowedBranch::is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known) {

@@ -308,5 +308,33 @@ TEST_CASE("A branch stops after as many points as are wanted") {
   CHECK(branch.points.size() <= 39);
 }
 
+// A mass on a spring and two sliders with springs, driven towards the resonance of the spring alone: there
+// the force of the friction, 4 F/pi, no longer holds it, and the peak grows like P/abs(k - r^2).
+TEST_CASE("Every point of a branch towards an undamped resonance balances, however large its orbit") {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"first", ElementType::jenkins, ground, mass},
+                               {"second", ElementType::jenkins, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0},
+                         .element = {5.0, 1.0, 2.0},
+                         .excitation = {{2.0, 0.0}},
+                         .second = {0.0, 0.1, 0.4}};
+  };
+  const Branch branch = follow_branch(network, asked, values, {.low = 2.0, .high = 3.0, .start = 2.0});
+  REQUIRE(branch.reason.empty());
+  CHECK(branch.points.back().quantities[0] > 1000.0);
+  int unbalanced = 0, unstable = 0;
+  for (const BranchPoint& point : branch.points) {
+    if (!std::isfinite(point.quantities[0])) ++unbalanced;
+    if (!point.stable) ++unstable;
+  }
+  CHECK(unbalanced == 0);
+  CHECK(unstable == 0);
+}
+
 }  // namespace
 }  // namespace frahm::periodic::branch_test
