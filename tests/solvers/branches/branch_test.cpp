@@ -308,6 +308,32 @@ TEST_CASE("A branch stops after as many points as are wanted") {
   CHECK(branch.points.size() <= 39);
 }
 
+// The upper stop is only just touched at r = 1.25960079587108: where the largest displacement is the
+// clearance, by halving over points.
+TEST_CASE("A grazing that lies at the section of its orbits has its residual too") {
+  Network network = mass_between_stops();
+  network.elements.push_back({"guide", ElementType::coulomb, ground, mass});
+  network.elements.back().has_static_force = true;
+  network.excitations.push_back({ExcitationKind::force, 0, 0});
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.25},
+                         .element = {1.91, 0.153, 19.8, 0.198},
+                         .excitation = {{1.0, 0.0}, {-0.4, 0.0}},
+                         .second = {0.0, 0.0, 0.0, 0.542},
+                         .bends = {{}, {}, {{1.08, 19.8, 0.0}, {1.08, 19.8, 0.0}}, {}}};
+  };
+  const Branch branch = follow_branch(network, asked, values, {.low = 0.3, .high = 3.0, .start = 2.354});
+  REQUIRE(branch.reason.empty());
+  constexpr double kPlace = 1.25960079587108;
+  int found = 0;
+  for (const SpecialPoint& grazing : of_kind(branch, SpecialKind::grazing)) {
+    CHECK(grazing.residual < kExact);
+    if (std::abs(grazing.at.parameter - kPlace) < kExact) ++found;
+  }
+  CHECK(found == 1);
+}
+
 // A mass on a spring and two sliders with springs, driven towards the resonance of the spring alone: there
 // the force of the friction, 4 F/pi, no longer holds it, and the peak grows like P/abs(k - r^2).
 TEST_CASE("Every point of a branch towards an undamped resonance balances, however large its orbit") {
