@@ -87,7 +87,19 @@ const Meaning flag_words[] = {
     {"one_stop", "regime of a friction element: it stops once or twice in a period of the excitation"},
     {"multi_stop",
      "regime of a friction element: it stops three times or more in a period of the excitation"},
-    {"stuck", "regime of a friction element: it never slides"}};
+    {"stuck", "regime of a friction element: it never slides"},
+    {"fold", "special point of a branch: the parameter turns back there"},
+    {"branching",
+     "special point of a branch: a multiplier passes +1 and the parameter goes on, so another branch "
+     "crosses"},
+    {"period_doubling",
+     "special point of a branch: a multiplier passes -1; a branch of twice the period begins there"},
+    {"torus", "special point of a branch: a pair of complex multipliers passes the unit circle"},
+    {"stability_jump",
+     "special point of a branch: a multiplier jumps across the unit circle where an event begins"},
+    {"grazing", "special point of a branch: an event of an element begins or ends there"},
+    {"jump", "special point of a branch: it ends where an event begins that throws the motion elsewhere"},
+    {"corner", "special point of a branch: the parameter turns back where an event begins or ends"}};
 
 const char* name_of(periodic::Owner owner) {
   switch (owner) {

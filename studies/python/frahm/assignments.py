@@ -35,7 +35,9 @@ def values_of_axis(name: str, given: Any, number: Callable[[str, str], float]) -
         listed = [number(name, _text(name, each)) if isinstance(each, (str, Estimate)) else each for each in listed]
     try:
         objects = np.asarray(listed)
-        if objects.dtype == object and any(each is None for each in objects.flat):  # NumPy would make it NaN
+        each_of = listed if isinstance(listed, list) else objects.flat if objects.dtype == object else []
+        # NumPy would make them numbers.
+        if objects.dtype.kind in "bS" or any(isinstance(each, (type(None), bool, bytes)) for each in each_of):
             raise TypeError
         array = np.atleast_1d(np.asarray(listed, dtype=float))
     except (TypeError, ValueError, OverflowError):
