@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 
 // A study from its text: the parts of reading it, in their order.

@@ -29,6 +29,7 @@
 #include "engine/run.hpp"
 #include "results/storage.hpp"
 #include "studies/map/assemble.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/study_path.hpp"
 
 namespace {

@@ -15,6 +15,7 @@
 #include "results/map_reader.hpp"
 #include "studies/map/tile_entry.hpp"
 #include "studies/provenance/assembly_stage.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/temporary_folder.hpp"
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "studies/map/map_plan.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/study_path.hpp"
 

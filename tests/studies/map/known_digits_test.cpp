@@ -5,6 +5,7 @@
 
 #include "studies/map/map_groups.hpp"
 #include "studies/map/map_plan.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace known_digits_test {

@@ -5,6 +5,7 @@
 
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/map/map_plan.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace map_kernel_test {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "studies/motion/one_motion.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace motion_kernel_test {

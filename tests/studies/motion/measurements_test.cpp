@@ -6,6 +6,7 @@
 
 #include "studies/motion/one_motion.hpp"
 #include "studies/program/data_export.hpp"
+#include "studies/reading/parse_study.hpp"
 
 namespace measurements_test {
 namespace {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace record_table_test {
