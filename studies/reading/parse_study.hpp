@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 
-#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/study.hpp"
 
 // A study from its text: the parts of reading it, in their order.
