@@ -55,7 +55,7 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   AnyOrbit orbit = map_.orbit(y, std::move(shot));
   observables_.forget();
   observables_.set_system(map_.system());
-  if (!observables_.is_balanced(orbit, map_.system()) && !balances_again(orbit)) {
+  if (!observables_.is_balanced(orbit, map_.system()) && !balances_later(orbit)) {
     observables_.fill_missing(Status::failed, 0, point.quantities);
     return point;
   }
@@ -67,18 +67,28 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   return point;
 }
 
-// Where an orbit is far larger than what drives it, the corrector leaves a residual that its energies show:
-// the orbit is found once more, as that of a point.
-bool FollowedBranch::balances_again(AnyOrbit& orbit) {
-  constexpr double kSame = 1e-6;  // of its size
-  AnyOrbit again = orbit;
-  Shooting<kAnySize, kAnySize>(map_.flow()).find(again);
-  const double moved = map_.flow().equations().energy_norm(again.z - orbit.z);
-  if (!again.is_found() || moved > kSame * map_.flow().energy_scale(orbit.z)) return false;
-  judge_stability(map_.flow(), again);
-  orbit = std::move(again);
-  observables_.forget();
-  return observables_.is_balanced(orbit, map_.system());
+// An event next to the section may be missed at one end of the orbit and met at the other, which its energies
+// show. The orbit is then found once more at a section a little later.
+bool FollowedBranch::balances_later(AnyOrbit& orbit) {
+  constexpr double kLater[] = {0.7, 1.9, 2.5};  // [rad]
+  constexpr double kSame = 1e-2;  // of its size: towards a resonance a missed event moves it so far
+  for (const double later : kLater) {
+    AnyOrbit again = orbit;
+    Walk<kAnySize, kAnySize>(map_.flow())
+        .pass(orbit.z, orbit.section, later / map_.flow().fundamental_rate(), again.passage, Tangent::none);
+    if (again.passage.failure != nullptr) continue;
+    const Eigen::VectorXd start = again.z = again.passage.end;
+    again.section = std::fmod(orbit.section + later, 2.0 * std::numbers::pi);
+    Shooting<kAnySize, kAnySize>(map_.flow()).find(again);
+    const double moved = map_.flow().equations().energy_norm(again.z - start);
+    if (!again.is_found() || moved > kSame * map_.flow().energy_scale(start)) continue;
+    judge_stability(map_.flow(), again);
+    observables_.forget();
+    if (!observables_.is_balanced(again, map_.system())) continue;
+    orbit = std::move(again);
+    return true;
+  }
+  return false;
 }
 
 bool FollowedBranch::is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known) {
