@@ -8,6 +8,7 @@
 
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/orbits/closed_forms.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 
 namespace frahm::periodic::branch_test {
