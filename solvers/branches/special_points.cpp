@@ -85,10 +85,8 @@ void add_stability_change(const PartOfBranch& stretch, bool has_fold, std::vecto
 // Where dp/ds changes its sign. Where it jumps across 0, at a grazing that is then part of the corner, there
 // is no fold.
 void add_fold(const PartOfBranch& stretch, std::vector<SpecialPlace>& found) {
-  constexpr double kSame = 1e-6, kMet = 1e-9;
+  constexpr double kSame = 1e-6;
   const BranchRoot fold = root(stretch, [](const BranchPlace& place) { return place.parameter_rate(); });
-  // Where a branch grows without bound towards a resonance, dp/ds is rounding, and so is its sign.
-  if (!fold.is_jump() && std::abs(fold.value) > kMet) return;
   SpecialPlace special{SpecialKind::fold, fold.place, std::nullopt, std::abs(fold.value)};
   if (fold.is_jump()) special = {SpecialKind::corner, fold.place, std::nullopt, fold.width};
   const double at = stretch.at(fold.place);

@@ -105,7 +105,7 @@ TEST_CASE("The table of a decay says how it ends: what is left, cut off, at rest
                             Catch::Contains("1 extremum,") && !Catch::Contains("1e-06"));
   const std::string whole = folder.write("whole.toml", one_mass(""));
   CHECK_THAT(out(whole, "c=0.4"),
-             Catch::Contains("never stops; after") && Catch::Contains("e-07 of the first"));
+             Catch::Contains("never stops; after") && Catch::Contains("e-07 of the initial one"));
   CHECK_THAT(out(whole, "c=40000"),
              Catch::Contains("still moving after") && Catch::Contains("give [decay] a duration"));
   const std::string still =

@@ -132,7 +132,7 @@ TEST_CASE("logs of a stopped run are in the way of any other study, and discarde
     const auto refused = frahm(other);
     CHECK(refused.code == 5);
     CHECK_THAT(refused.err, Catch::Contains("results of different studies are never mixed") &&
-                                Catch::Contains("or discard what is there with --fresh"));
+                                Catch::Contains("or discard this one with --fresh"));
     CHECK(folder.names() == before);
     Names asked = other;
     asked.emplace_back("--fresh");

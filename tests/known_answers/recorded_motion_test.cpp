@@ -135,7 +135,7 @@ TEST_CASE("Records that are none are refused by name") {
   refused({.name = "short", .of = RecordOf::force, .time = {0.0}, .values = {0.0}}, "record 'short'");
   refused({.name = "back", .of = RecordOf::force, .time = {0.0, 0.0}, .values = {0, 0}}, "must ascend");
   refused({.name = "nan", .of = RecordOf::force, .time = {0.0, 1.0}, .values = {0, NAN}}, "finite");
-  refused({.name = "y", .of = RecordOf::velocity, .time = {0.0, 1.0}, .values = {0, 1}}, "one of a support");
+  refused({.name = "y", .of = RecordOf::velocity, .time = {0.0, 1.0}, .values = {0, 1}}, "a motion belongs to a support");
   CHECK_THROWS_WITH(motion_of(network, kUnit, {}, 1.0, 2), Catch::Contains("has no record"));
 }
 

@@ -123,7 +123,7 @@ TEST_CASE("Of a hundred noisy energy balances the intervals hold the truth in ni
 TEST_CASE("An energy balance that cannot tell the two apart says so") {
   const auto refused = [](const EnergyRows& rows) { return energy_balance(rows).failure; };
   CHECK_THAT(refused({.amplitude = {1.0, 1.0}, .energy = {1.0, 2.0}, .omega = {1.0}, .velocity_rms = {}}),
-             Contains("of one amplitude"));
+             Contains("have one amplitude"));
   CHECK_THAT(
       refused({.amplitude = {1.0, 2.0}, .energy = {1.0, 2.0}, .omega = {4.0, 2.0}, .velocity_rms = {}}),
       Contains("frequency times amplitude, 4 m/s"));
