@@ -94,8 +94,8 @@ test("figures replace figures that nobody has changed, and nothing else", (t) =>
   };
   isRefused("svg", "<svg>mine</svg>", /curves_main_amplitude\.svg: exists already and is not a figure/);
   isRefused("svg", readFileSync(place("svg"), "utf8").replace("</title>", " of mine</title>"), /changed since/);
-  isRefused("pdf", "%PDF-1.4 mine", /curves_main_amplitude\.pdf: is there already/);
-  isRefused("csv", readFileSync(file), /curves_main_amplitude\.csv: is there already/);
+  isRefused("pdf", "%PDF-1.4 mine", /curves_main_amplitude\.pdf: exists already/);
+  isRefused("csv", readFileSync(file), /curves_main_amplitude\.csv: exists already/);
   rmSync(place("svg"));
   writeFileSync(join(folder, "mine.svg"), "mine");
   symlinkSync(join(folder, "mine.svg"), place("svg"));

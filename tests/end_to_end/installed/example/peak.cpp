@@ -4,7 +4,6 @@
 
 #include "solvers/response/periodic_response.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/reading/study/study.hpp"
 
 int main(int argc, char** argv) try {
   if (argc != 3) return 2;
