@@ -178,7 +178,7 @@ class Runs(unittest.TestCase):
                 kept.append(report["done"])
                 os.kill(os.getpid(), signal.SIGINT)
 
-        with self.assertRaisesRegex(KeyboardInterrupt, "stopped by SIGINT.* kept beside"):
+        with self.assertRaisesRegex(KeyboardInterrupt, "stopped by SIGINT.* kept next to"):
             study.run(self.file, threads=1, progress=interrupt)
         self.assertIs(signal.getsignal(signal.SIGINT), before)
         self.assertFalse(self.file.exists())
