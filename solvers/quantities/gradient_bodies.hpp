@@ -199,11 +199,19 @@ CandidateDerivative Gradient<N, H>::of_candidate(std::size_t trace, std::size_t 
   CandidateDerivative result;
   result.value = trace_derivative(what, motion_, assembly_, *measured_.system, system_by_);
   result.state = d.z.norm() / x.z.norm();
-  if (candidate.change >= 0) {
-    const double shift = sensitivity_.passage().shift(static_cast<std::size_t>(candidate.change));  // [steps]
+  const double shift = candidate.change < 0  // [steps]
+                           ? 0.0
+                           : sensitivity_.passage().shift(static_cast<std::size_t>(candidate.change));
+  // Where that instant is several, a value that stands still there asks for none of them.
+  constexpr double kStandsStill = 1e-9;  // of the value, a step
+  const bool stands_still =
+      candidate.change < 0
+          ? candidate.stationary
+          : std::isnan(shift) && std::abs(candidate.slope) <= kStandsStill * std::abs(candidate.value);
+  if (!stands_still) {
     result.value += candidate.slope * shift;
     result.angle = flow_.fundamental_rate() * shift;
-  } else if (candidate.stationary && what.kind == TraceKind::displacement) {
+  } else if (what.kind == TraceKind::displacement) {
     const double rate = flow_.fundamental_rate() / flow_.equations().step;  // [rad/s]
     result.angle = -rate * (what.at.w.dot(motion_.by.v) + what.at.p.dot(motion_.by.y_velocity)) /
                    (what.at.w.dot(motion_.at.a) + what.at.p.dot(motion_.at.y_acceleration));

@@ -269,6 +269,40 @@ Further stop(double c) {
   return {bent("stop", ElementType::gap, laws::elastic_stop), 6.0, c, {{0.4, 6.0, c}}};
 }
 
+// Central differences, where the two masses stop one after the other.
+TEST_CASE(
+    "A symmetric structure whose masses stop at one instant has the derivatives of its peaks by one side") {
+  constexpr double kStep = 1e-4, kDifferences = 1e-6;
+  Case symmetric;
+  symmetric.network.masses = {"mass", "other"};
+  symmetric.network.elements = {{"spring", ElementType::spring, ground, first},
+                                {"other_spring", ElementType::spring, ground, second},
+                                {"link", ElementType::spring, first, second},
+                                {"damper", ElementType::damper, ground, first},
+                                {"other_damper", ElementType::damper, ground, second},
+                                {"guide", ElementType::coulomb, ground, first},
+                                {"other_guide", ElementType::coulomb, ground, second}};
+  symmetric.network.excitations = {{ExcitationKind::force, 0, 1}, {ExcitationKind::force, 1, 1}};
+  symmetric.values.omega = 0.7;
+  symmetric.values.mass = {1.0, 1.0};
+  symmetric.values.element = {1.0, 1.0, 0.4, 0.1, 0.1, 0.3, 0.3};
+  symmetric.values.excitation = {{1.0, 0.0}, {1.0, 0.0}};
+  const std::vector<std::string> names = {"mass_peak", "mass_peak_phase", "mass_rms", "spring_force_peak"};
+  for (const std::size_t changed : {0u, 3u, 5u}) {
+    INFO(symmetric.network.elements[changed].name);
+    const Derivatives exact = derivatives(symmetric, names, {along(symmetric, element(changed))});
+    REQUIRE(exact.reason == "");
+    Case above = symmetric, below = symmetric;
+    above.values.element[changed] += kStep;
+    below.values.element[changed] -= kStep;
+    const Derivatives more = derivatives(above, names, {}), less = derivatives(below, names, {});
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      INFO(names[i] << ": " << exact.why_none[i]);
+      CHECK(exact.by[i] == Approx((more.own[i] - less.own[i]) / (2.0 * kStep)).epsilon(kDifferences));
+    }
+  }
+}
+
 TEST_CASE("Masses that do not feel each other have their own derivatives, however they change together") {
   const auto check = [](double frequency, const Further& third, std::vector<std::string> names) {
     INFO("omega " << frequency << " " << third.element.name << " " << third.second);
