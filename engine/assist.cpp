@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 using Kind = RankMessage::Kind;
 using namespace std::chrono_literals;
 
-constexpr std::chrono::seconds told_every(1);  // rank 0 shows the progress of all
+constexpr std::chrono::seconds report_every(1);  // rank 0 shows the progress of all
 constexpr std::chrono::seconds synced_every(1);
 
 // The next message of rank 0. It is polled with pauses: MPI itself would wait at full speed.
@@ -44,7 +44,7 @@ class Asking {
       has_asked_ = true;
       tell(Kind::ask);
     }
-    if (Clock::now() - told_ >= told_every) tell(Kind::tell);
+    if (Clock::now() - reported_at_ >= report_every) tell(Kind::tell);
   }
 
  private:
@@ -63,13 +63,13 @@ class Asking {
   }
   void tell(Kind kind) {
     ranks_.send(0, encode({.kind = kind, .finished = work_.finished()}));
-    told_ = Clock::now();
+    reported_at_ = Clock::now();
   }
 
   Ranks& ranks_;
   TeamWork& work_;
   bool is_open_ = true, has_asked_ = false;
-  Clock::time_point told_ = Clock::now();
+  Clock::time_point reported_at_ = Clock::now();
 };
 
 // Returns the finished counts once the log is closed and on the disk.
@@ -106,7 +106,8 @@ int assist(const Job& job, const RunOptions& options) {
   RankMessage leaving{.kind = Kind::leave};
   if (first.kind == Kind::begin) {
     if (first.study != study)
-      throw IoError(options.output, "is of another study, or another version of this program, on rank 0");
+      throw IoError(options.output,
+                    "belongs to another study, or to another version of this program, on rank 0");
     leaving.finished = compute_tiles(job, options, threads, signals);
     if (signals.received() != 0) leaving.text = "stopped by " + signal_name(signals.received());
   }

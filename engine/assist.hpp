@@ -20,7 +20,7 @@ int tell_failure(Ranks& ranks, const std::string& text, int code);
 // Waits for rank 0 to end the program; returns the exit code.
 int wait_for_end(Ranks& ranks);
 
-// Of rank 0: ends the program in all other ranks with the same exit code; does not return if one of them is
+// For rank 0: ends the program in all other ranks with the same exit code; does not return if one of them is
 // given up.
 void end_all(Ranks& ranks, int code);
 

@@ -92,7 +92,7 @@ void Dealer::give_up(int rank) {
   member.finished.failed = left.finished.failed;
   if (!stopping_) tiles_.insert(tiles_.end(), left.missing.begin(), left.missing.end());
   notices_.push_back(fmt::format(
-      "{} has not been heard of for {:.0f} s and is not waited for; {} of its {} tiles are dealt out again",
+      "{} has been silent for {:.0f} s and is no longer waited for; {} of its {} tiles are given out again",
       member.name.empty() ? fmt::format("rank {}", rank) : member.name, silence_.longest.count(),
       left.missing.size(), member.tiles.size()));
 }

@@ -28,7 +28,7 @@ class RankFailed : public std::runtime_error {
 
 // What is left of the tiles that were dealt to a rank.
 struct Salvage {
-  std::vector<std::uint64_t> missing;  // in no record of its log
+  std::vector<std::uint64_t> missing;  // in no entry of its log
   Finished finished;                   // the others: tiles, points and failed ones
 };
 

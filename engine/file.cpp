@@ -61,7 +61,7 @@ std::optional<File> File::open_if_present(const std::filesystem::path& path) {
   File file(path, descriptor);
   struct stat status {};
   if (::fstat(descriptor, &status) == 0 && !S_ISREG(status.st_mode))
-    throw IoError(path, "is no regular file but a directory, pipe or device");
+    throw IoError(path, "is not a regular file but a directory, pipe or device");
   return file;
 }
 

@@ -28,7 +28,7 @@ struct LogHeader {
 class ResumeRefused : public std::runtime_error {
  public:
   ResumeRefused(const std::filesystem::path& log, const LogHeader& kept, const LogHeader& wanted);
-  // Of a finished result.
+  // For a finished result.
   ResumeRefused(const std::filesystem::path& result, const Fingerprint& kept, const Fingerprint& wanted,
                 std::string advice = "");
   // The same refusal with advice for the user.

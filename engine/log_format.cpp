@@ -16,7 +16,7 @@ namespace frahm::engine {
 namespace {
 
 constexpr std::string_view file_magic = "FRAHMLOG";
-constexpr std::uint32_t record_magic = 0x454C4954U;  // "TILE" in the file
+constexpr std::uint32_t entry_magic = 0x454C4954U;  // "TILE" in the file
 constexpr std::size_t hash_size = 64;
 constexpr std::size_t version_at = 8, tiles_at = 12, physics_at = 20, grid_at = 84, header_crc_at = 148;
 static_assert(header_crc_at + sizeof(std::uint32_t) == owner_offset);
@@ -44,7 +44,7 @@ std::string get_hash(const std::byte* from) {
   return std::string(text, strnlen(text, hash_size));
 }
 
-// The header is synced before the first record is appended: until then a power failure may leave zeros of it.
+// The header is synced before the first entry is appended: until then a power failure may leave zeros of it.
 bool is_unsynced_header(const File& file) {
   return file.size() <= header_size && file.holds_only_zeros();
 }
@@ -88,17 +88,16 @@ std::uint64_t study_mark(const LogHeader& header) {
   return crc64(std::span(bytes).subspan(tiles_at, header_crc_at - tiles_at));
 }
 
-void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::byte> payload,
-                   Bytes& record) {
-  record.resize(payload.size() + record_overhead);
-  put_little_endian(&record[0], record_magic);
-  put_little_endian(&record[4], log_version);
-  put_little_endian(&record[8], mark);
-  put_little_endian(&record[16], tile);
-  put_little_endian(&record[24], std::uint64_t{payload.size()});
-  std::ranges::copy(payload, record.begin() + record_head_size);
-  const std::size_t crc_at = record_head_size + payload.size();
-  put_little_endian(&record[crc_at], crc32c(std::span(record).first(crc_at)));
+void encode_entry(std::uint64_t mark, std::uint64_t tile, std::span<const std::byte> payload, Bytes& entry) {
+  entry.resize(payload.size() + entry_overhead);
+  put_little_endian(&entry[0], entry_magic);
+  put_little_endian(&entry[4], log_version);
+  put_little_endian(&entry[8], mark);
+  put_little_endian(&entry[16], tile);
+  put_little_endian(&entry[24], std::uint64_t{payload.size()});
+  std::ranges::copy(payload, entry.begin() + entry_head_size);
+  const std::size_t crc_at = entry_head_size + payload.size();
+  put_little_endian(&entry[crc_at], crc32c(std::span(entry).first(crc_at)));
 }
 
 bool begins_as_log(const File& file) {
@@ -133,41 +132,41 @@ std::optional<LogHeader> read_header(const File& log) {
                    .tiles = get_little_endian<std::uint64_t>(&bytes[tiles_at])};
 }
 
-bool read_record(const File& log, std::uint64_t offset, std::uint64_t file_size, std::uint64_t mark,
-                 std::uint64_t tiles, Bytes& record) {
-  if (offset > file_size || file_size - offset < record_overhead) return false;
-  record.resize(record_head_size);
-  if (log.read_at(offset, record) < record_head_size) return false;
-  const auto length = get_little_endian<std::uint64_t>(&record[24]);
-  const bool head_is_good = get_little_endian<std::uint32_t>(&record[0]) == record_magic &&
-                            get_little_endian<std::uint32_t>(&record[4]) == log_version &&
-                            get_little_endian<std::uint64_t>(&record[8]) == mark && tile_of(record) < tiles &&
-                            length <= file_size - offset - record_overhead;
+bool read_entry(const File& log, std::uint64_t offset, std::uint64_t file_size, std::uint64_t mark,
+                std::uint64_t tiles, Bytes& entry) {
+  if (offset > file_size || file_size - offset < entry_overhead) return false;
+  entry.resize(entry_head_size);
+  if (log.read_at(offset, entry) < entry_head_size) return false;
+  const auto length = get_little_endian<std::uint64_t>(&entry[24]);
+  const bool head_is_good = get_little_endian<std::uint32_t>(&entry[0]) == entry_magic &&
+                            get_little_endian<std::uint32_t>(&entry[4]) == log_version &&
+                            get_little_endian<std::uint64_t>(&entry[8]) == mark && tile_of(entry) < tiles &&
+                            length <= file_size - offset - entry_overhead;
   if (!head_is_good) return false;
 
-  record.resize(static_cast<std::size_t>(length) + record_overhead);
-  const auto rest = std::span(record).subspan(record_head_size);
-  if (log.read_at(offset + record_head_size, rest) < rest.size()) return false;
-  const std::size_t crc_at = record.size() - sizeof(std::uint32_t);
-  return crc32c(std::span(record).first(crc_at)) == get_little_endian<std::uint32_t>(&record[crc_at]);
+  entry.resize(static_cast<std::size_t>(length) + entry_overhead);
+  const auto rest = std::span(entry).subspan(entry_head_size);
+  if (log.read_at(offset + entry_head_size, rest) < rest.size()) return false;
+  const std::size_t crc_at = entry.size() - sizeof(std::uint32_t);
+  return crc32c(std::span(entry).first(crc_at)) == get_little_endian<std::uint32_t>(&entry[crc_at]);
 }
 
-std::uint64_t tile_of(const Bytes& record) {
-  return get_little_endian<std::uint64_t>(&record[16]);
+std::uint64_t tile_of(const Bytes& entry) {
+  return get_little_endian<std::uint64_t>(&entry[16]);
 }
 
-std::span<const std::byte> payload_of(const Bytes& record) {
-  return std::span(record).subspan(record_head_size, record.size() - record_overhead);
+std::span<const std::byte> payload_of(const Bytes& entry) {
+  return std::span(entry).subspan(entry_head_size, entry.size() - entry_overhead);
 }
 
-LogExtent read_records(const File& log, const LogHeader& header, const RecordVisitor& visit) {
+LogExtent read_entries(const File& log, const LogHeader& header, const EntryVisitor& visit) {
   const std::uint64_t mark = study_mark(header);
   LogExtent extent{.good_bytes = header_size, .file_bytes = log.size()};
-  Bytes record;
-  while (read_record(log, extent.good_bytes, extent.file_bytes, mark, header.tiles, record)) {
-    visit(tile_of(record), extent.good_bytes, payload_of(record));
-    extent.good_bytes += record.size();
-    ++extent.records;
+  Bytes entry;
+  while (read_entry(log, extent.good_bytes, extent.file_bytes, mark, header.tiles, entry)) {
+    visit(tile_of(entry), extent.good_bytes, payload_of(entry));
+    extent.good_bytes += entry.size();
+    ++extent.entries;
   }
   return extent;
 }

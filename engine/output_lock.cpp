@@ -20,7 +20,7 @@ void refuse_foreign_file(const File& file) {
   const bool is_lock = begin.starts_with(std::string_view(text.data(), size)) ||
                        file.holds_only_zeros();  // after a power failure
   if (is_lock && file.size() <= owner_size) return;
-  throw IoError(file.path(), "is there already and is no lock of frahm; remove or rename it");
+  throw IoError(file.path(), "exists already and is not a lock of frahm; remove or rename it");
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ OutputLock::OutputLock(const std::filesystem::path& output) : file_(open_locked(
 }
 
 OutputLock::~OutputLock() {
-  std::error_code ignored;  // a file left behind is harmless: it is the lock that counts
+  std::error_code ignored;  // a file that is left is harmless: it is the lock that counts
   std::filesystem::remove(file_.path(), ignored);
 }
 

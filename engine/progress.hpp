@@ -11,7 +11,7 @@
 namespace frahm::engine {
 
 enum class ProgressStyle {
-  automatic,  // a bar if stderr is a terminal, else plain
+  automatic,  // a bar if stderr is a terminal, otherwise plain
   plain,      // a line every 30 s
   json,       // a JSON object on a line of its own every second
   none,
@@ -24,7 +24,7 @@ struct Tally {
   std::uint64_t resumed = 0;  // of these, finished by earlier runs
   std::uint64_t reused = 0;   // of those done since, not computed but found in an earlier result
   std::uint64_t failed = 0;   // of those done, the points that have no result
-  // Of work whose points take long: how often a model has been computed so far, by this process.
+  // For work whose points take long: how often a model has been computed so far, by this process.
   std::optional<std::uint64_t> evaluations = {};
 };
 
@@ -33,7 +33,8 @@ enum class ProgressForm { bar, coloured_bar, plain, json, none };
 // The form of a style on this process's stderr; a bar is coloured unless NO_COLOR is set.
 ProgressForm progress_form(ProgressStyle style);
 
-// Reports on a run, at most as often as its form allows: a bar ten times a second, else see ProgressStyle.
+// Reports on a run, at most as often as its form allows: a bar ten times a second, otherwise see
+// ProgressStyle.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;

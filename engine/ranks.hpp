@@ -36,7 +36,7 @@ class Ranks {
   // A rank that is given up is not waited for at the end, until it is taken back.
   virtual void give_up(int rank) = 0;
   virtual void take_back(int rank) = 0;
-  // If a rank is given up, ends the program in all ranks at once with this exit code; else does nothing.
+  // If a rank is given up, ends the program in all ranks at once with this exit code; otherwise does nothing.
   virtual void end_without_given_up(int code) = 0;
 };
 

@@ -27,8 +27,9 @@ using namespace std::chrono_literals;
 
 void check(const RunOptions& options) {
   if (options.shard.count == 0 || options.shard.index >= options.shard.count) {
-    throw std::invalid_argument(fmt::format("shard {}/{}: the index must be below the count, from 0 on",
-                                            options.shard.index, options.shard.count));
+    throw std::invalid_argument(
+        fmt::format("shard {}/{}: the index must be below the count; it starts from 0", options.shard.index,
+                    options.shard.count));
   }
   if (options.threads < 0) {
     throw std::invalid_argument(fmt::format("threads = {}: must be >= 0", options.threads));
@@ -53,7 +54,7 @@ void discard_logs(const RunOptions& options, const LogHeader& study) {
   remove_logs(logs);
 }
 
-// The tiles of the shard that are missing in the logs beside the output.
+// The tiles of the shard that are missing in the logs next to the output.
 struct Remainder {
   std::vector<std::uint64_t> tiles;  // in order
   Summary so_far;                    // counts of the logs
@@ -63,12 +64,12 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   const Shard& shard = options.shard;
   Remainder remainder;
   Summary& summary = remainder.so_far;
-  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> record) {
+  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> entry) {
     if (tile % shard.count != shard.index) return;
-    if (job.check) job.check(tile, record);
+    if (job.check) job.check(tile, entry);
     ++summary.tiles_resumed;
     summary.points.resumed += job.points(tile);
-    if (job.failed) summary.points.failed += job.failed(tile, record);
+    if (job.failed) summary.points.failed += job.failed(tile, entry);
   };
   const TileIndex index = index_tiles(find_logs(options.output), study, take_up);
   for (std::uint64_t tile = shard.index; tile < study.tiles; tile += shard.count) {
@@ -92,12 +93,12 @@ Salvage read_log_of_rank(const Job& job, const RunOptions& options, const LogHea
                          const std::vector<std::uint64_t>& tiles) {
   std::unordered_set<std::uint64_t> missing(tiles.begin(), tiles.end());
   Finished finished;
-  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> record) {
+  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> entry) {
     if (missing.erase(tile) == 0) return;  // of an earlier run
-    if (job.check) job.check(tile, record);
+    if (job.check) job.check(tile, entry);
     ++finished.tiles;
     finished.points += job.points(tile);
-    if (job.failed) finished.failed += job.failed(tile, record);
+    if (job.failed) finished.failed += job.failed(tile, entry);
   };
   try {
     index_tiles({log_of_rank(options, rank)}, study, take_up);
@@ -123,7 +124,8 @@ Tally tally_of(const Tally& found, const Job& job, const TeamWork& work,
   return now;
 }
 
-// While it exists, rank 0 serves the other ranks beside its own work. Without other ranks it does nothing.
+// While it exists, rank 0 serves the other ranks in addition to its own work. Without other ranks it does
+// nothing.
 class Attendance {
  public:
   Attendance(std::optional<Dealer>& dealer, StopAsked stop_asked) : dealer_(dealer) {

@@ -22,7 +22,7 @@
 // depend on who computed which tile, in what order, or how often they were stopped.
 namespace frahm::engine {
 
-// Computes one tile and writes its record to `out`, which is empty before the call. The record must depend on
+// Computes one tile and writes its entry to `out`, which is empty before the call. The entry must depend on
 // the tile alone. A kernel is used by one thread and may reuse its workspace.
 using Kernel = std::function<void(std::uint64_t tile, Bytes& out)>;
 
@@ -39,9 +39,9 @@ struct Job {
   std::function<Kernel(const StopAsked& stop_asked)> make_kernel;
   std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
   // Points of a finished tile that have no result; may be empty: all have one.
-  std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
-  // Throws BadRecord for a record out of a log that the kernel did not write; may be empty: all are good.
-  std::function<void(std::uint64_t tile, std::span<const std::byte> record)> check = {};
+  std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> entry)> failed;
+  // Throws BadEntry for an entry out of a log that the kernel did not write; may be empty: all are good.
+  std::function<void(std::uint64_t tile, std::span<const std::byte> entry)> check = {};
   // Points that the kernels of this process took from an earlier result; may be empty.
   std::function<std::uint64_t()> reused = {};
   // How often the kernels of this process have computed a model, where a tile takes many such evaluations and
@@ -57,17 +57,17 @@ struct Shard {
 };
 
 struct RunOptions {
-  std::filesystem::path output;  // the file to be assembled later; the logs lie beside it
+  std::filesystem::path output;  // the file to be assembled later; the logs lie next to it
   int threads = 0;               // of each process, >= 0; 0: default_threads()
   Shard shard;
   // Discard what earlier runs left: all logs; for one shard of several its own log and those of other
   // studies, because the other shards of this study may be at work or done.
   bool fresh = false;
   std::optional<std::chrono::duration<double>> time_budget;  // > 0, from `begun`; absent: none
-  // Whether somebody beside signals and the budget asks for a stop, as a function of Python that shows
+  // Whether somebody other than signals and the budget asks for a stop, as a function of Python that shows
   // progress; it outlives the run. Null: nobody.
   const std::atomic<bool>* called_off = nullptr;
-  // When the program began, as far as it knows; else when the options were made.
+  // When the program began, as far as it knows; otherwise when the options were made.
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
   ProgressStyle progress = ProgressStyle::automatic;
   Ranks* ranks = nullptr;  // the ranks of the program; null: this process works alone
@@ -97,12 +97,12 @@ struct Summary {
   std::vector<UnusedBytes> unused;     // ends of logs that could not be used when the run began
 };
 
-// Computes the tiles of the shard that are in no log beside the output yet; among ranks it is called by rank
+// Computes the tiles of the shard that are in no log next to the output yet; among ranks it is called by rank
 // 0, deals the tiles out to all, and returns when the others have closed their logs (engine/assist). On
 // SIGTERM, SIGINT, SIGUSR1 or at the end of the time budget the tiles in hand are finished or given up by
 // their kernels; finished tiles are on the disk at the end in every case. One run at a time in a process.
 // Throws std::invalid_argument for options outside their range, ResumeRefused when tiles of another study lie
-// beside the output (unless fresh), Locked when another process computes this shard, IoError, and, once the
+// next to the output (unless fresh), Locked when another process computes this shard, IoError, and, once the
 // tiles in hand are saved, the first exception of a kernel; RankFailed (engine/dealer) when another rank
 // could not go on.
 Summary run(const Job& job, const RunOptions& options);

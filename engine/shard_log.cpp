@@ -15,10 +15,10 @@ ShardLog::ShardLog(const std::filesystem::path& path, const LogHeader& header)
     begin(header);
     return;
   }
-  found_ = read_records(file_, *kept, [](auto&&...) {});
+  found_ = read_entries(file_, *kept, [](auto&&...) {});
   if (*kept != header) {
-    if (found_.records > 0) throw ResumeRefused(path, *kept, header);
-    begin(header);  // it holds no record, so nothing is lost
+    if (found_.entries > 0) throw ResumeRefused(path, *kept, header);
+    begin(header);  // it holds no entry, so nothing is lost
     return;
   }
   file_.write_at(owner_offset, encode_writer({std::chrono::system_clock::now(), found_.good_bytes}));
@@ -28,7 +28,7 @@ ShardLog::ShardLog(const std::filesystem::path& path, const LogHeader& header)
 
 ShardLog::~ShardLog() {
   if (end_ > header_size) return;
-  std::error_code ignored;  // an empty log left behind is harmless
+  std::error_code ignored;  // an empty log that is left is harmless
   std::filesystem::remove(file_.path(), ignored);
 }
 
@@ -45,13 +45,13 @@ void ShardLog::begin(const LogHeader& header) {
 }
 
 void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
-  Bytes record;  // made before the turn, which is for the file alone
-  encode_record(mark_, tile, payload, record);
+  Bytes entry;  // made before the turn, which is for the file alone
+  encode_entry(mark_, tile, payload, entry);
   const std::lock_guard turn(append_turn_);
   try {
-    file_.write_at(end_, record);
+    file_.write_at(end_, entry);
   } catch (const IoError&) {
-    // Cut off the part that was written. If that fails too, the reader stops there, and the next record
+    // Cut off the part that was written. If that fails too, the reader stops there, and the next entry
     // overwrites it.
     try {
       file_.truncate(end_);
@@ -59,7 +59,7 @@ void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
     }
     throw;
   }
-  end_ += record.size();
+  end_ += entry.size();
 }
 
 void ShardLog::sync() {

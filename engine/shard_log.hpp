@@ -17,15 +17,15 @@ namespace frahm::engine {
 // append() and sync() may be called from several threads at once.
 class ShardLog {
  public:
-  // Opens or creates the log of a study. Bytes after its last good record are cut off.
+  // Opens or creates the log of a study. Bytes after its last good entry are cut off.
   // Throws Locked if another process has it, ResumeRefused if it holds tiles of another study, IoError.
   ShardLog(const std::filesystem::path& path, const LogHeader& header);
-  // A log without a record is removed.
+  // A log without an entry is removed.
   ~ShardLog();
   ShardLog(const ShardLog&) = delete;
   ShardLog& operator=(const ShardLog&) = delete;
 
-  // The extent of the log when it was opened; bytes behind the good ones have been cut off.
+  // The extent of the log when it was opened; bytes after the good ones have been cut off.
   const LogExtent& found() const { return found_; }
 
   // Saves one finished tile. Throws IoError (disk full, ...), after which the tiles saved before are still
@@ -38,11 +38,11 @@ class ShardLog {
  private:
   void begin(const LogHeader& header);
 
-  std::uint64_t mark_;  // of the study, in each record
+  std::uint64_t mark_;  // of the study, in each entry
   File file_;
   LogExtent found_;
   std::mutex append_turn_;  // guards end_ and the file's end
-  std::uint64_t end_ = 0;   // of the last good record
+  std::uint64_t end_ = 0;   // of the last good entry
   std::mutex sync_turn_;    // guards synced_end_
   std::uint64_t synced_end_ = 0;
 };

@@ -68,10 +68,10 @@ Survey survey(const Job& job, const std::vector<std::filesystem::path>& logs,
               std::chrono::system_clock::time_point now) {
   Survey found;
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
-  const TileIndex index = index_tiles(logs, study, [&](std::uint64_t tile, auto record) {
-    if (job.check) job.check(tile, record);
+  const TileIndex index = index_tiles(logs, study, [&](std::uint64_t tile, auto entry) {
+    if (job.check) job.check(tile, entry);
     found.points.done += job.points(tile);
-    if (job.failed) found.points.failed += job.failed(tile, record);
+    if (job.failed) found.points.failed += job.failed(tile, entry);
   });
   for (std::uint64_t tile = 0; tile < job.tiles; ++tile) found.points.points += job.points(tile);
   found.missing = missing_tiles(index);

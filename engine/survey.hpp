@@ -27,12 +27,12 @@ struct Survey {
   Tally points;                        // resumed: 0
   std::vector<std::uint64_t> missing;  // tiles that are in no log, in order
   std::vector<WriterState> writers;    // one for each log of the study
-  std::vector<UnusedBytes> unused;     // behind the last good record of a log
+  std::vector<UnusedBytes> unused;     // after the last good entry of a log
   std::optional<double> rate;          // points a second of all writers at work; nothing where unknown
   std::optional<double> seconds_left;  // at this rate
 };
 
-// Reads every record of the logs of a job and checks the locks without keeping any. The rate of a writer is
+// Reads every entry of the logs of a job and checks the locks without keeping any. The rate of a writer is
 // its points finished since it began over the wall time; it is unknown if the clock is before that start.
 // logs: of this job alone.  job: its kernel is not used.  now: the time of the survey.  Throws ResumeRefused
 // for a log with tiles of another study, IoError.

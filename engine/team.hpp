@@ -9,8 +9,9 @@
 
 namespace frahm::engine {
 
-// The default number of threads of this process: OMP_NUM_THREADS, else the processors a Slurm task was given
-// (SLURM_CPUS_PER_TASK), else those that this process may use. ranks: among which it is; null if alone.
+// The default number of threads of this process: OMP_NUM_THREADS, otherwise the processors a Slurm task was
+// given (SLURM_CPUS_PER_TASK), otherwise those that this process may use. ranks: among which it is; null if
+// alone.
 int default_threads(const Ranks* ranks = nullptr);
 
 // The number of threads for these pieces of work: `wanted` (0: default_threads()), but no more than pieces,

@@ -20,18 +20,18 @@ void TeamWork::compute(int threads, const StopAsked& stop_asked) {
 // The work of each thread: takes the next tile, computes it and saves it.
 void TeamWork::take_part(const StopAsked& give_up) {
   const Kernel kernel = job_.make_kernel(give_up);
-  Bytes record;
+  Bytes entry;
   while (!give_up()) {
     const std::optional<std::uint64_t> tile = queue_.take();
     if (!tile) return;
-    record.clear();
+    entry.clear();
     try {
-      kernel(*tile, record);
+      kernel(*tile, entry);
     } catch (const GivenUp&) {
       return;
     }
-    log_.append(*tile, record);
-    if (job_.failed) failed_points_ += job_.failed(*tile, record);
+    log_.append(*tile, entry);
+    if (job_.failed) failed_points_ += job_.failed(*tile, entry);
     points_ += job_.points(*tile);
     ++tiles_;
   }

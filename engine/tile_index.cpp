@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "engine/bad_record.hpp"
+#include "engine/bad_entry.hpp"
 #include "engine/io_error.hpp"
 #include "engine/log_format.hpp"
 
@@ -26,12 +26,11 @@ bool is_log_name(std::string_view name, std::string_view output_name) {
   return name.size() > 1 && name.find('.', 1) == std::string_view::npos;
 }
 
-[[noreturn]] void refuse_record(const std::filesystem::path& log, std::uint64_t tile, std::uint64_t offset,
-                                const BadRecord& bad) {
-  throw IoError(log,
-                fmt::format("the record of tile {} at byte {} has a right checksum and a wrong content: {}; "
-                            "remove the file to have its tiles computed again",
-                            tile, offset, bad.what()));
+[[noreturn]] void refuse_entry(const std::filesystem::path& log, std::uint64_t tile, std::uint64_t offset,
+                               const BadEntry& bad) {
+  throw IoError(log, fmt::format("the record of tile {} at byte {} has a correct checksum but wrong content: "
+                                 "{}; remove the file to have its tiles computed again",
+                                 tile, offset, bad.what()));
 }
 
 // Enters the tiles of one log into the index.
@@ -41,14 +40,14 @@ void index_log(const File& file, TileIndex& index, const TileVisitor& visit) {
   const bool same_study = *kept == index.study;
   const auto log = static_cast<std::uint32_t>(index.logs.size());
   const LogExtent extent =
-      read_records(file, *kept, [&](std::uint64_t tile, std::uint64_t offset, auto payload) {
+      read_entries(file, *kept, [&](std::uint64_t tile, std::uint64_t offset, auto payload) {
         if (!same_study) throw ResumeRefused(file.path(), *kept, index.study);
         if (index.has(tile)) return;
         index.places[tile] = {log, offset};
         try {
           visit(tile, payload);
-        } catch (const BadRecord& bad) {
-          refuse_record(file.path(), tile, offset, bad);
+        } catch (const BadEntry& bad) {
+          refuse_entry(file.path(), tile, offset, bad);
         }
       });
   if (!same_study) return;
@@ -114,16 +113,15 @@ TileReader::TileReader(const TileIndex& index)
       most_open_(most_open_logs()),
       files_(index.logs.size()) {}
 
-std::span<const std::byte> TileReader::read(std::uint64_t tile, Bytes& record) {
+std::span<const std::byte> TileReader::read(std::uint64_t tile, Bytes& entry) {
   const auto [log, offset] = index_.places[tile];
   const std::shared_ptr<const File> file = open(log);
-  if (!read_record(*file, offset, file->size(), mark_, index_.study.tiles, record) ||
-      tile_of(record) != tile) {
+  if (!read_entry(*file, offset, file->size(), mark_, index_.study.tiles, entry) || tile_of(entry) != tile) {
     throw IoError(
         file->path(),
         fmt::format("the record of tile {} at byte {} has been damaged since it was indexed", tile, offset));
   }
-  return payload_of(record);
+  return payload_of(entry);
 }
 
 std::shared_ptr<const File> TileReader::open(std::uint32_t log) {
@@ -142,16 +140,16 @@ std::shared_ptr<const File> TileReader::open(std::uint32_t log) {
 
 void for_each_tile(const TileIndex& index, const TileVisitor& visit) {
   TileReader reader(index);
-  Bytes record;
+  Bytes entry;
   for (std::uint64_t tile = 0; tile < index.places.size(); ++tile) {
-    if (index.has(tile)) visit(tile, reader.read(tile, record));
+    if (index.has(tile)) visit(tile, reader.read(tile, entry));
   }
 }
 
 void remove_logs(const std::vector<std::filesystem::path>& logs) {
   for (const auto& log : logs) {
     const File held = open_locked(log, owner_offset);
-    if (!begins_as_log(held)) throw IoError(log, "is no shard log and is not removed; rename it");
+    if (!begins_as_log(held)) throw IoError(log, "is not a shard log and is not removed; rename it");
     std::error_code error;
     std::filesystem::remove(log, error);
     if (error) throw IoError(log, "remove", error.value());

@@ -76,7 +76,7 @@ void restrain_child() {
     text = failed + std::string(error.what());
   }
   write_whole(answer, text);  // where it fails the parent takes the check for one that ended the process
-  ::_exit(0);  // without the parent's buffers and destructors
+  ::_exit(0);                 // without the parent's buffers and destructors
 }
 
 // Starts the program that carries out checks. Returns its process; -1: it cannot be started.
@@ -118,7 +118,7 @@ std::string receive(int from) {
 // How a child without an answer ended.
 std::string ending(int status) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    return fmt::format("reading it does not come to an end within {} s", most_seconds);
+    return fmt::format("reading it does not finish within {} s", most_seconds);
   if (WIFSIGNALED(status)) return fmt::format("reading it ends in \"{}\"", ::strsignal(WTERMSIG(status)));
   return "reading it ends the process";
 }
@@ -144,7 +144,7 @@ void check_apart(const std::filesystem::path& path, const FileCheck& check) {
   const std::filesystem::file_status kind = std::filesystem::status(path, unseen);
   const bool is_regular = std::filesystem::is_regular_file(kind);
   if (std::filesystem::exists(kind) && !is_regular && !std::filesystem::is_directory(kind))
-    throw StoreError(path.string(), "is no regular file but a pipe or a device", "");
+    throw StoreError(path.string(), "is not a regular file but a pipe or a device", "");
   if (is_kept_here || !is_regular) return check.carry_out();
   std::array<int, 2> pipe{};
   const bool has_pipe = ::pipe2(pipe.data(), O_CLOEXEC) == 0;

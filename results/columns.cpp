@@ -59,7 +59,7 @@ void check_read(const hdf5::Group& group, const std::vector<Column>& columns) {
   try {
     check(columns);
   } catch (const std::invalid_argument& broken) {
-    throw StoreError(group.where(), "is no group of a result", broken.what());
+    throw StoreError(group.where(), "is not a group of a result", broken.what());
   }
   check_row_starts(group, columns);
 }
@@ -125,7 +125,7 @@ void write_columns(hdf5::Group& group, const std::vector<Column>& columns) {
 std::vector<Column> read_columns(const hdf5::Group& group) {
   std::vector<Column> columns;
   const hdf5::Group::Scales scales = group.scales();
-  bool is_map = false;  // of several dimensions: then the values of each are told row after row
+  bool is_map = false;  // of several dimensions: then the values of each are reported row after row
   for (const std::string& name : group.dataset_names()) {
     const hdf5::Dataset dataset = group.dataset(name);
     if (is_index(dataset)) continue;

@@ -38,7 +38,7 @@ class DataReader {
   // shape or type, is packed by scale_factor or add_offset, lies in another file or behind a soft link, or is
   // damaged.
   DataColumn read(const std::string& dataset) const;
-  // The same of a dataset of two dimensions.
+  // The same for a dataset of two dimensions.
   DataMatrix read_matrix(const std::string& dataset) const;
 
  private:

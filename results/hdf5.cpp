@@ -52,8 +52,8 @@ Handle file_access(const std::string& path) {
   // V18 stores texts above 64 KiB as attributes; nothing newer than 1.10 is needed to read the file.
   checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V110), path,
           "cannot set the file version");
-  // A file is written beside its name by one process and only then renamed, so HDF5's lock guards nothing; on
-  // network file systems without locks it would fail.
+  // A file is written next to its name by one process and only then renamed, so HDF5's lock guards nothing;
+  // on network file systems without locks it would fail.
   checked(H5Pset_file_locking(access.get(), false, true), path, "cannot switch locks off");
   return access;
 }
@@ -81,7 +81,7 @@ Handle open_attribute(hid_t object, const std::string& name, const std::string& 
 // A text of a result is that of a study, 1 MiB, or a list of failed points.
 constexpr std::size_t longest_attribute = std::size_t{64} << 20;  // [bytes]
 
-// Of an attribute of `elements` of a type.
+// For an attribute of `elements` of a type.
 void check_size(hid_t type, hssize_t elements, const std::string& where) {
   const std::size_t size = H5Tget_size(type);
   if (size > 0 && elements >= 0 && static_cast<std::size_t>(elements) <= longest_attribute / size) return;
@@ -247,7 +247,7 @@ bool Group::has(const std::string& name) const {
   return checked(H5Lexists(id(), name.c_str(), H5P_DEFAULT), where_, "cannot look for " + name) > 0;
 }
 
-// Links to other names and other files: behind them may be a pipe, or a file that was never meant to be read.
+// Links to other names and other files: they may lead to a pipe, or a file that was never meant to be read.
 void Group::refuse_foreign_link(const std::string& name) const {
   H5L_info_t link;
   checked(H5Lget_info(id(), name.c_str(), &link, H5P_DEFAULT), path_of(name), "cannot open");

@@ -231,7 +231,7 @@ void Dataset::require_chunk(std::span<const std::uint64_t> start) const {
   print_no_errors();
   hsize_t bytes = 0;
   if (H5Dget_chunk_storage_size(id(), sizes(start), &bytes) >= 0 && bytes > 0) return;
-  throw StoreError(where_, fmt::format("its chunk at [{}] is not there", fmt::join(start, ", ")), "");
+  throw StoreError(where_, fmt::format("its chunk at [{}] is missing", fmt::join(start, ", ")), "");
 }
 
 std::vector<double> Dataset::read_all() const {
@@ -242,8 +242,8 @@ std::vector<double> Dataset::read_all() const {
   // Deflate makes at most 1032 bytes of one; a chunk at the end may be filled with nothing.
   constexpr std::uint64_t most_from_one = 1040;
   if (values * H5Tget_size(type.get()) > most_from_one * stored)
-    throw StoreError(where_, fmt::format("{} values cannot be in the {} bytes stored of it", values, stored),
-                     "");
+    throw StoreError(where_,
+                     fmt::format("{} values do not fit in the {} bytes stored for it", values, stored), "");
   return read(Shape(extent.size(), 0), extent);
 }
 

@@ -28,7 +28,7 @@ struct Variable {
   std::string long_name = {};
   Type type = Type::float64;
   std::vector<Flag> flags = {};  // for Type::flag only; the first is {"not_computed", 0}
-  int significant_bits = 0;      // to which a float was rounded, behind the first; 0: all
+  int significant_bits = 0;      // to which a float was rounded, after the first; 0: all
 };
 
 // A coordinate of the map, float64.

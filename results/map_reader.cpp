@@ -19,7 +19,7 @@ namespace {
 
 void check_format(const hdf5::Group& root) {
   if (root.text(format_attribute) != format_name) {
-    throw StoreError(root.where(), "must be a Frahm result", "the attribute format = \"frahm\" is not there");
+    throw StoreError(root.where(), "must be a Frahm result", "the attribute format = \"frahm\" is missing");
   }
   const auto version = root.numbers(version_attribute);
   if (!version || version->size() != 1 || version->front() > format_version || version->front() < 1) {
@@ -110,7 +110,7 @@ void check_read(const hdf5::Group& group, const MapLayout& layout) {
   try {
     check(layout);
   } catch (const std::invalid_argument& broken) {
-    throw StoreError(group.where(), "is no map of a result", broken.what());
+    throw StoreError(group.where(), "is not a map of a result", broken.what());
   }
 }
 

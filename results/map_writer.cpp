@@ -38,7 +38,7 @@ void describe_file(hdf5::Group& root, const MapLayout& layout, const std::string
 
 // A coordinate, or the index of an axis, along one axis.
 hdf5::Dataset write_line(hdf5::Group& root, const Variable& variable, std::span<const double> values) {
-  // Of an axis of many values several chunks, as HDF5 keeps a chunk as a whole in memory.
+  // For an axis of many values several chunks, as HDF5 keeps a chunk as a whole in memory.
   constexpr std::uint64_t most_in_chunk = 1 << 16;
   const Shape size{values.size()}, chunk{std::clamp<std::uint64_t>(values.size(), 1, most_in_chunk)};
   hdf5::Dataset dataset =

@@ -89,7 +89,7 @@ PartFile::PartFile(std::filesystem::path path) : path_(std::move(path)) {
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     if (create()) return;
   }
-  throw StoreError(path_.string(), "cannot create a file beside it", "others take it away");
+  throw StoreError(path_.string(), "cannot create a file next to it", "others take it away");
 }
 
 // False if another process took the part for a dead one before it was locked.
@@ -99,7 +99,7 @@ bool PartFile::create() {
   if (descriptor_ < 0) {
     // On a network it can be taken while it is created.
     if (errno == ENOENT && is_there(folder_of(path_))) return false;
-    fail(path_, "cannot create a file beside it", errno);
+    fail(path_, "cannot create a file next to it", errno);
   }
   // On a file system without locks this fails, and nobody removes the part of anybody else.
   ::flock(descriptor_, LOCK_EX | LOCK_NB);
@@ -139,7 +139,7 @@ void PartFile::give_up(const char* what, int error) const {
 void remove_dead_parts(const std::filesystem::path& path) {
   const std::filesystem::path folder = folder_of(path);
   const std::string output = path.filename().string();
-  std::error_code error;  // a folder that cannot be listed: the part cannot be created either, which is told
+  std::error_code error;  // of a folder that cannot be listed: creating the part fails too, and says so
   std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     if (is_named_as_part(entry->path().filename().string(), output))

@@ -18,13 +18,13 @@ class PartTaken : public StoreError {
 // to the path in one step.
 //
 // The part's name is <path>.part- and 16 hex digits: 8 random ones and their complement, which the name of
-// no other file has by chance. It is created anew and follows no link, and is locked (flock) while it is
+// no other file has by chance. It is created again and follows no link, and is locked (flock) while it is
 // written. A part left by a process that was killed, which no process has locked, is removed by the next one
-// of the same path. (Its inode proves nothing: file systems on a network number their files anew.)
+// of the same path. (Its inode proves nothing: file systems on a network number their files again.)
 class PartFile {
  public:
-  // Creates the part, with the access rights of the file that it is to replace, else those of any new file.
-  // Throws StoreError.
+  // Creates the part, with the access rights of the file that it is to replace, otherwise those of any new
+  // file. Throws StoreError.
   explicit PartFile(std::filesystem::path path);
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;

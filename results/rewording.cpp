@@ -45,7 +45,7 @@ void rewrite_numbers(hdf5::Dataset& dataset, const Variable& variable, const Wor
   if (!numbers.empty()) dataset.write(Shape(shape.size(), 0), shape, to_storage(variable, numbers));
 }
 
-// All are written anew, which keeps their order.
+// All are written again, which keeps their order.
 void replace_texts(hdf5::Group& group, const std::vector<Text>& by) {
   for (const auto& [name, text] : group.texts()) {
     const auto found = std::ranges::find(by, name, &Text::first);

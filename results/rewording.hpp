@@ -11,8 +11,8 @@
 
 namespace frahm::results {
 
-// What a variable is to be told in. Its numbers are multiplied by `factor`, or are `values` where there are
-// any.
+// What a variable is to be reported in. Its numbers are multiplied by `factor`, or are `values` where there
+// are any.
 struct Words {
   std::string unit, long_name;
   double factor = 1.0;

@@ -1,4 +1,4 @@
-# How the program was built, for record/build_facts.cpp: known only here. The commit is that of the sources when CMake
+# How the program was built, for provenance/build_facts.cpp: known only here. The commit is that of the sources when CMake
 # last ran, which it does again when the commit changes.
 find_package(Git QUIET)
 set(commit "unknown")
@@ -33,7 +33,7 @@ set(libraries
   "JSON for Modern C++ ${nlohmann_json_VERSION}" "fmt ${fmt_VERSION}" "OpenMP ${OpenMP_CXX_VERSION}")
 list(JOIN libraries "|" libraries)
 
-set_property(SOURCE record/build_facts.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+set_property(SOURCE provenance/build_facts.cpp APPEND PROPERTY COMPILE_DEFINITIONS
   FRAHM_VERSION="${PROJECT_VERSION}"
   FRAHM_COMMIT="${commit}"
   FRAHM_COMPILER="${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"

@@ -24,7 +24,7 @@ struct PageContent {
   std::vector<std::string> variables = {};   // of the map; of the others the page has the names only
   std::vector<PageGroup> groups = {};        // besides those of the file
   std::optional<std::size_t> samples = {};   // the axis of the map along which parameters scatter
-  bool all_digits = false;                   // of the map's numbers; else six
+  bool all_digits = false;                   // of the map's numbers; otherwise six
 };
 
 // The result as JSON, the data of its page (page/record.js reads it): attributes of the root; axes with their

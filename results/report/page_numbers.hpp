@@ -23,7 +23,7 @@ constexpr double millionth = 1e-6;
 
 enum class Spacing {
   whole,       // whole numbers, all digits
-  six_digits,  // of each value where none is negative, else at least six of their range
+  six_digits,  // of each value where none is negative, otherwise at least six of their range
 };
 
 // Lines of numbers along one axis: numbers i, i + stride, i + 2 stride, ... (`size` of them) are one line.

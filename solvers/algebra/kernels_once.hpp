@@ -4,7 +4,7 @@
 #include <complex>
 
 // The kernels of Eigen's products and triangular solves of run-time sized matrices, which every file that
-// writes A * B would compile anew, a second each: files with precompiled headers find them declared here as
+// writes A * B would compile again, a second each: files with precompiled headers find them declared here as
 // compiled once, in kernels_once.cpp; no file needs to include this. None of them is ever inlined, so that
 // nothing becomes slower.
 namespace Eigen::internal {

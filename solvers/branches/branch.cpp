@@ -55,19 +55,19 @@ const char* end_sentence(BranchEnd end) {
     case BranchEnd::range:
       return "the range of the parameter ends";
     case BranchEnd::points:
-      return "as many points as were asked for";
+      return "the requested number of points is reached";
     case BranchEnd::closed:
       return "the branch is closed";
     case BranchEnd::origin:
       return "it meets the orbits of half its period, from which it branches off";
     case BranchEnd::jump:
-      return "an event begins that throws the motion elsewhere";
+      return "an event begins that takes the motion elsewhere";
     case BranchEnd::joined:
-      return "it goes on as a branch that was followed before";
+      return "it continues as a branch that was followed before";
     case BranchEnd::rule:
       return "beyond, a value breaks a rule";
     case BranchEnd::lost:
-      return "no orbit beside it was found to continue it";
+      return "no neighbouring orbit was found to continue it";
   }
   return "";
 }

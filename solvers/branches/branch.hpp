@@ -45,9 +45,9 @@ struct SpecialPoint {
   SpecialKind kind = SpecialKind::fold;
   BranchPoint at;
   std::size_t after = 0;  // index of the point of the branch before it
-  // Of a grazing, a jump, and of a corner where it is known: whose event it is, index in Network::elements.
+  // For a grazing, a jump, and of a corner where it is known: whose event it is, index in Network::elements.
   std::optional<std::size_t> element{};
-  // Of the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; the
+  // For the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; the
   // distance of a bend's guard from zero, relative. Of a contact's event and of jumps the width of the
   // bracket on the scaled curve.
   double residual = 0.0;
@@ -59,7 +59,7 @@ enum class BranchEnd {
   points,  // as many as were asked for
   closed,
   origin,  // it comes back into the orbits of half its period, from which it branches off
-  jump,    // the map jumps there: no orbit beside the last one continues it
+  jump,    // the map jumps there: no orbit next to the last one continues it
   joined,  // it goes on as a branch that was followed before
   rule,    // beyond it the values break a rule
   lost,

@@ -53,10 +53,14 @@ double distance_from_bend(const AnyFlow& flow, const AnyOrbit& orbit, Eigen::Ind
   for (const BendGuard guard : {BendGuard::place, BendGuard::force}) {
     if (guard == BendGuard::force && contains(bends.pulling, j)) continue;
     double size = guard == BendGuard::place ? std::abs(bends.place[j]) : 0.0, least = HUGE_VAL;
+    double slope_before = bend_guard(flow, steps.steps().back().right, guard, j).slope;
     for (auto& step : steps.steps()) {
       const ValueAndSlope left = bend_guard(flow, step.left, guard, j);
       const ValueAndSlope right = bend_guard(flow, step.right, guard, j);
       size = std::max({size, std::abs(left.value), std::abs(right.value)});
+      // An extreme between two steps, as at an orbit's section that lies there.
+      if ((slope_before > 0.0) != (left.slope > 0.0)) least = std::min(least, std::abs(left.value));
+      slope_before = right.slope;
       if ((left.slope > 0.0) == (right.slope > 0.0)) continue;
       const Polynomial g = bend_guard_over(steps.expand(step), bends, guard, j);
       const Roots extremes = sign_changes(derivative(g));

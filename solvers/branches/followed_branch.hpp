@@ -9,7 +9,7 @@
 
 namespace frahm::periodic {
 
-// A branch beside the map on which it is followed, so that orbits can be compared with it afterwards.
+// A branch with the map on which it is followed, so that orbits can be compared with it afterwards.
 class FollowedBranch {
  public:
   FollowedBranch(const mechanics::Network& network, const std::vector<Quantity>& quantities,
@@ -51,6 +51,7 @@ class FollowedBranch {
   };
 
   BranchPoint tell(const Eigen::VectorXd& y);
+  bool balances_later(AnyOrbit& orbit);
   // sign: of the arclength.
   OneWay follow_way(const BranchPlace& first, bool stable, double sign, const IsKnown& is_known,
                     const BranchProgress& progress);

@@ -53,7 +53,7 @@ BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
       a = *place, fa = f, fb *= 0.5;
     }
   }
-  // Of a jump no place has a small value: it lies within the bracket, whatever is smallest elsewhere.
+  // For a jump no place has a small value: it lies within the bracket, whatever is smallest elsewhere.
   if (std::abs(function(best)) > BranchRoot::kJump)
     best = std::abs(function(a)) < std::abs(function(b)) ? a : b;
   return {best, function(best), part.at(b) - part.at(a)};

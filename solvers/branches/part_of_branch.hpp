@@ -32,7 +32,7 @@ class PartOfBranch {
   const BranchPlace& to_;
 };
 
-// Of a place, what is to be zero.
+// For a place, what is to be zero.
 using PlaceFunction = std::function<double(const BranchPlace&)>;
 
 struct BranchRoot {

@@ -38,10 +38,10 @@ struct RestChoice {
 // Those of choice.on_edge that do not do just after the instant what they claim.
 using BrokenClaims = std::function<ContactMask(const RestChoice& choice)>;
 
-// By trial of all choices, those with most contacts stuck first, where bounds leave at most 3^8 of them. Else
-// by an active set that looks at every contact again after each change; where it comes back to a choice, that
-// for F_s = F is taken. Some other admissible choice may then be preferable. found = false: claims that the
-// instant does not decide are broken in all choices.
+// By trial of all choices, those with most contacts stuck first, where bounds leave at most 3^8 of them.
+// Otherwise by an active set that looks at every contact again after each change; where it comes back to a
+// choice, that for F_s = F is taken. Some other admissible choice may then be preferable. found = false:
+// claims that the instant does not decide are broken in all choices.
 RestChoice admissible_choice(const ContactsAtRest& rest, const BrokenClaims& broken);
 
 }  // namespace frahm::periodic

@@ -72,7 +72,7 @@ Polynomial bend_polynomial(const Flow<N, H>& flow, BendGuard guard, Eigen::Index
 
 // The fraction of the step at which the guard, which has the sign `side` before, changes it. fresh: the guard
 // is zero at the start of the step, a root that is divided out. A place on which contacts hold the bend, such
-// as zero velocity beside friction that sticks, is never passed.
+// as zero velocity next to friction that sticks, is never passed.
 template <int N, int H>
 double first_guard(const Flow<N, H>& flow, BendGuard guard, Eigen::Index j, double side, bool fresh,
                    Workspace<N, H>& w) {

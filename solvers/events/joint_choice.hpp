@@ -51,7 +51,7 @@ bool some_fall(const StepEquations<N, H>& eq, ContactMask contacts) {
   return false;
 }
 
-// Of contacts at rest those with friction that act together with one whose force falls where it lets go.
+// For contacts at rest those with friction that act together with one whose force falls where it lets go.
 template <int N, int H>
 ContactMask in_falling_groups(const StepEquations<N, H>& eq, ContactMask at_rest) {
   ContactMask found = 0;
@@ -112,7 +112,7 @@ void start_chosen(Flow<N, H>& flow, ContactMask at_rest, const Choice& choice, W
   w.mode = chosen_mode(flow, at_rest, choice, w);
 }
 
-// Of these contacts, which stick with forces at their limits or slide without acceleration in this mode,
+// For these contacts, which stick with forces at their limits or slide without acceleration in this mode,
 // those that do otherwise just after this instant. letting_go: one of a loop, whose force has reached its
 // limit. Cold, as what follows: few events come here, and it stays out of the code of all others.
 template <int N, int H>

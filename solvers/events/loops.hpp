@@ -95,7 +95,7 @@ ContactMask slide(Flow<N, H>& flow, const RestOutcome& outcome, Workspace<N, H>&
 }
 
 // Groups of these contacts at rest in which some force falls where it lets go, and which cannot all stay at
-// rest, are chosen anew. Returns the contacts that slide from now on.
+// rest, are chosen again. Returns the contacts that slide from now on.
 template <int N, int H>
 ContactMask slide_in_groups(Flow<N, H>& flow, const RestProblem& rest, ContactMask groups,
                             ContactMask cannot_stay, Workspace<N, H>& w) {
@@ -157,7 +157,7 @@ ContactMask hold_together(Flow<N, H>& flow, ContactMask letting_go, Workspace<N,
   }
 }
 
-// A contact that was held at rest lets go. Contacts beside it whose internal force is at its limit continue
+// A contact that was held at rest lets go. Contacts next to it whose internal force is at its limit continue
 // to slide with it if they move in that direction.
 template <int N, int H>
 void slide_on(Flow<N, H>& flow, Workspace<N, H>& w) {

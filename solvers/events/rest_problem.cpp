@@ -13,7 +13,7 @@ using Eigen::Index, Eigen::VectorXd;
 // Where forces `lambda` leave the accelerations G (needed - lambda), or their rates.
 void find_sliding(const RestProblem& rest, const VectorXd& needed, const VectorXd& lambda, ContactMask among,
                   RestOutcome& outcome) {
-  // Of the terms, and of those of other contacts, whose rounding reaches one that nothing pulls at.
+  // For the terms, and of those of other contacts, whose rounding reaches one that nothing pulls at.
   constexpr double kRounding = 1e-9, kOfOthers = 1e-12;
   const VectorXd pull = rest.G * (needed - lambda);
   const VectorXd size = rest.G.cwiseAbs() * (needed.cwiseAbs() + lambda.cwiseAbs());

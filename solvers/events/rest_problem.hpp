@@ -30,7 +30,7 @@ struct RestOutcome {
 };
 
 // Forces within the bounds that leave no acceleration are sought; where there are none contacts slide at
-// once. Else the same is asked of the rates: the force of a contact at its bound cannot grow.
+// once. Otherwise the same is asked of the rates: the force of a contact at its bound cannot grow.
 RestOutcome outcome_of(const RestProblem& rest);
 
 }  // namespace frahm::periodic

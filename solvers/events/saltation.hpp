@@ -36,7 +36,7 @@ bool is_at_limit(const Flow<N, H>& flow, Eigen::Index j, const Instant<N, H>& at
   return std::abs(flow.stuck_force(at, mode, j).value) >= flow.equations().static_limit[j] * (1.0 - kRest);
 }
 
-// Of contacts that let go those at whose guards the acceleration jumps, because forces fall from static
+// For contacts that let go those at whose guards the acceleration jumps, because forces fall from static
 // limits: `own`, whose event it is, and others that are at their limits at the same instant. The force of
 // `own` itself may stay: what it releases may make others fall.
 template <int N, int H>
@@ -82,7 +82,7 @@ void add_contacts(const Flow<N, H>& flow, ContactMask arrived, ContactMask let_g
       w.jumps.push_back(
           {.contact = -1, .change = change / slope, .by = flow.stuck_force_form(mode_before, j)});
   };
-  // Of its group's part, what the friction of arrival j takes up, with the contacts that stuck before.
+  // For its group's part, what the friction of arrival j takes up, with the contacts that stuck before.
   const auto share_of = [&](Eigen::Index j) {
     const double after = contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
     typename S::Contacts jump = S::Contacts::Zero(eq.contacts());

@@ -18,7 +18,7 @@
 //   a stuck force reaches its limit      -                       it slides in the force's direction; a force
 //                                                                that is a state stays there. One that falls
 //                                                                to its sliding force takes along what it
-//                                                                held: all at rest with it are chosen anew
+//                                                                held: all at rest with it are chosen again
 //   a sliding velocity reaches zero      it holds a velocity     the forces of all at rest solve one convex
 //                                                                problem: inside its limit a contact sticks,
 //                                                                at its limit it slides that way. Where
@@ -128,7 +128,7 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
     const double limit = eq.limit[j];
     const double size = G(i, i) * weight[i] + std::abs(c[i]);
     const double pull = std::abs(acceleration[i]) / size;
-    // Of the sum c - G lambda: that of a weak contact beside strong ones.
+    // For the sum c - G lambda: that of a weak contact next to strong ones.
     const double rounding = kRounding * G.row(i).cwiseAbs().dot(force.cwiseAbs()) / size;
     const double room = (limit - std::abs(force[i])) / weight[i];
     const bool sticks = pull <= std::max(kTie, rounding) && limit > 0.0;
@@ -212,7 +212,7 @@ void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w)
   w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0), before.beyond);
 }
 
-// The stuck contact j lets go. Where forces fall with its own, all that are at rest with it are chosen anew.
+// The stuck contact j lets go. Where forces fall with its own, all that are at rest with it are chosen again.
 template <int N, int H>
 void let_go(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();

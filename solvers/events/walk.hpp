@@ -64,7 +64,6 @@ class Walk {
 };
 
 extern template class Walk<1, 1>;
-extern template class Walk<1, 2>;
 extern template class Walk<2, 1>;
 extern template class Walk<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -22,7 +22,8 @@ struct Workspace {
   Expansion<N, H> expansion;  // over the current step, if `expanded`
   bool expanded = false;
   std::size_t mode = 0;
-  // Of each contact its guard (events/search.hpp) at both ends of the step: that of `left` where it is known.
+  // For each contact its guard (events/search.hpp) at both ends of the step: that of `left` where it is
+  // known.
   std::vector<ValueAndSlope> left_guard, right_guard;
   bool knows_left = false;
   std::vector<std::size_t> sharing;  // of each idle contact the mode in which it shares forces (loops.hpp)

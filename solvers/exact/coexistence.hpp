@@ -29,9 +29,9 @@ class Coexistence {
   Orbits find(const mechanics::LinearSystem& system, const Orbits* before);
   // Adds to `found`, which are those of `system`, the ones to which those of the point after lead.
   void add(const mechanics::LinearSystem& system, const Orbits& after, Orbits& found);
-  // Sets `orbit` to the one to be told; the flow is then set to its multiple of the period.
+  // Sets `orbit` to the one to be reported; the flow is then set to its multiple of the period.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, Orbit<N, H>& orbit);
-  // The same of any of those found; if none was, of a motion that did not settle, over kMotion periods.
+  // The same for any of those found; if none was, of a motion that did not settle, over kMotion periods.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
             Orbit<N, H>& orbit);
 
@@ -94,9 +94,9 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits
     return;
   }
   const double sign = wanted_.show == OrbitsWanted::Show::smallest ? -1.0 : 1.0;
-  const auto told = std::ranges::max_element(found.stable, {},
-                                             [&](const StableOrbit<N, H>& each) { return sign * each.peak; });
-  tell(system, found, static_cast<std::size_t>(told - found.stable.begin()), orbit);
+  const auto reported = std::ranges::max_element(
+      found.stable, {}, [&](const StableOrbit<N, H>& each) { return sign * each.peak; });
+  tell(system, found, static_cast<std::size_t>(reported - found.stable.begin()), orbit);
 }
 
 template <int N, int H>
@@ -129,7 +129,6 @@ typename Sizes<N, H>::State Coexistence<N, H>::start(int index, bool large_ones_
 
 // Each once, in sized_solver_<N>_<H>.cpp.
 extern template class Coexistence<1, 1>;
-extern template class Coexistence<1, 2>;
 extern template class Coexistence<2, 1>;
 extern template class Coexistence<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -12,14 +12,10 @@ std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& netw
   const bool is_small = assembly.contacts() <= Sizes<1, 1>::kMaxContacts &&
                         assembly.bends().count() <= Sizes<1, 1>::kMaxContacts &&
                         assembly.internal_forces() == 0;
-  if (is_small) {
-    if (masses == 1 && harmonics == 1)
-      return std::make_unique<SizedSolver<1, 1>>(network, quantities, path, wanted);
-    if (masses == 1 && harmonics == 2)
-      return std::make_unique<SizedSolver<1, 2>>(network, quantities, path, wanted);
-    if (masses == 2 && harmonics == 1)
-      return std::make_unique<SizedSolver<2, 1>>(network, quantities, path, wanted);
-  }
+  if (is_small && harmonics == 1 && masses == 1)
+    return std::make_unique<SizedSolver<1, 1>>(network, quantities, path, wanted);
+  if (is_small && harmonics == 1 && masses == 2)
+    return std::make_unique<SizedSolver<2, 1>>(network, quantities, path, wanted);
   return std::make_unique<SizedSolver<Eigen::Dynamic, Eigen::Dynamic>>(network, quantities, path,
                                                                        wanted);
 }

@@ -15,7 +15,7 @@ namespace frahm::periodic {
 
 // Finds the periodic orbit of a system that has one alone: continuation and shooting, the rest position of
 // contacts that stick throughout, and the certificate. Where there may be several: coexistence.hpp,
-// sweep.hpp.
+// slow_sweep.hpp.
 template <int N, int H>
 class OrbitSearch {
  public:
@@ -90,7 +90,6 @@ void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
 
 // Each once, in sized_solver_<N>_<H>.cpp.
 extern template class OrbitSearch<1, 1>;
-extern template class OrbitSearch<1, 2>;
 extern template class OrbitSearch<2, 1>;
 extern template class OrbitSearch<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -29,11 +29,11 @@ void ResponseSolver::solve_rest(std::span<const mechanics::NetworkValues> points
   solve_along(points, wanted, std::vector<char>(points.size(), 1), found, out);
 }
 
-// Solves those of a row that are solved, one after the other, and tells those that are told. The solver
+// Solves those of a row that are solved, one after the other, and names those that are reported. The solver
 // extrapolates over the frequency, which must change in one direction: where it turns back or pauses, a new
 // row begins.
 void ResponseSolver::solve_along(std::span<const mechanics::NetworkValues> points,
-                                 const std::vector<char>& told, const std::vector<char>& solved,
+                                 const std::vector<char>& reported, const std::vector<char>& solved,
                                  std::span<ResponseSummary> found, std::span<double> out) {
   const std::size_t quantities = points.empty() ? 0 : out.size() / points.size();
   std::size_t points_onwards = 0;
@@ -52,7 +52,7 @@ void ResponseSolver::solve_along(std::span<const mechanics::NetworkValues> point
     omega = points[i].omega;
     ++points_onwards;
     const ResponseSummary& summary = solve_next(points[i]);
-    if (told[i] == 0) continue;
+    if (reported[i] == 0) continue;
     found[i] = summary;
     if (summary.status != Status::not_computed) this->quantities(out.subspan(i * quantities, quantities));
   }

@@ -100,11 +100,11 @@ class ResponseSolver {
   virtual void forget() = 0;
   virtual void begin_row() = 0;
   virtual const ResponseSummary& solve() = 0;
-  // Of a system that may have several responses; another has nothing to tell.
+  // For a system that may have several responses; another has nothing to report.
   virtual void start_from(std::span<const KnownOrbit>) {}
   virtual std::vector<KnownOrbit> known() const { return {}; }
   virtual void tell(int) {}
-  virtual int multiple() const { return 1; }  // of the excitation's period, that what is told takes
+  virtual int multiple() const { return 1; }  // of the excitation's period, that what is reported takes
   virtual std::vector<std::complex<double>> multipliers() { return {}; }
   virtual void quantities(std::span<double> out) = 0;
   virtual const char* gradient(std::span<const mechanics::NetworkValues> directions,
@@ -127,7 +127,7 @@ class ResponseSolver {
                   std::span<double> out);
 
  private:
-  void solve_along(std::span<const mechanics::NetworkValues> points, const std::vector<char>& told,
+  void solve_along(std::span<const mechanics::NetworkValues> points, const std::vector<char>& reported,
                    const std::vector<char>& solved, std::span<ResponseSummary> found, std::span<double> out);
   const ResponseSummary& solve_next(const mechanics::NetworkValues& values);
 

@@ -43,13 +43,13 @@ class RestForces {
   // are: their places of rest then lie within those that are possible.
   OrbitCuts cuts_through(ContactMask contacts, const Orbit<N, H>& orbit) const;
   // The forces across these cuts over the orbit, which is laid out in `steps`, while the motion tells them;
-  // at other times one counts as the first that is told.
+  // at other times one counts as the first that is reported.
   std::vector<StuckForce> across(const std::vector<OrbitCut>& cuts, const Orbit<N, H>& orbit,
                                  OrbitSteps<N, H>& steps) const;
 
  private:
   bool add_cuts(ContactMask resting, ContactMask contacts, OrbitCuts& cuts) const;
-  bool is_told(const OrbitCut& cut, const Mode<N, H>& mode) const;
+  bool is_defined(const OrbitCut& cut, const Mode<N, H>& mode) const;
   LinearForm<N, H> form(const OrbitCut& cut, const Mode<N, H>& mode) const;
 
   Forms<N, H> forms_;
@@ -122,7 +122,7 @@ LinearForm<N, H> RestForces<N, H>::form(const OrbitCut& cut, const Mode<N, H>& m
 }
 
 template <int N, int H>
-bool RestForces<N, H>::is_told(const OrbitCut& cut, const Mode<N, H>& mode) const {
+bool RestForces<N, H>::is_defined(const OrbitCut& cut, const Mode<N, H>& mode) const {
   const ContactMask resting = flow_.at_rest(mode);
   if (cut.contact >= 0) return contains(resting, cut.contact);
   return std::ranges::find(cut.resting, resting & flow_.equations().holding) != cut.resting.end();
@@ -134,12 +134,12 @@ std::vector<StuckForce> RestForces<N, H>::across(const std::vector<OrbitCut>& cu
   std::vector<StuckForce> forces;
   for (const OrbitCut& cut : cuts) {
     const auto all = steps.steps();
-    const auto told =
-        std::ranges::find_if(all, [&](const auto& step) { return is_told(cut, flow_.mode(step.mode)); });
-    LinearForm<N, H> first_told = forms_.zero();
-    if (told != all.end()) first_told.u[0] = form(cut, flow_.mode(told->mode)).at(told->left).value;
+    const auto first =
+        std::ranges::find_if(all, [&](const auto& step) { return is_defined(cut, flow_.mode(step.mode)); });
+    LinearForm<N, H> first_value = forms_.zero();
+    if (first != all.end()) first_value.u[0] = form(cut, flow_.mode(first->mode)).at(first->left).value;
     const Extremes force = find_extremes(steps, flow_, orbit.section, [&](const Mode<N, H>& mode) {
-      return is_told(cut, mode) ? form(cut, mode) : first_told;
+      return is_defined(cut, mode) ? form(cut, mode) : first_value;
     });
     const auto& eq = flow_.equations();
     const bool falls = (eq.static_limit - eq.limit).dot(cut.shares.cwiseAbs()) > 0.0;

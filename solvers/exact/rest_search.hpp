@@ -177,14 +177,14 @@ bool RestSearch<N, H>::hold_some(ContactMask barely, Orbit<N, H>& orbit) {
   return holds;
 }
 
-// Of these contacts, which cannot all be held, one that is let go.
+// For these contacts, which cannot all be held, one that is let go.
 template <int N, int H>
 ContactMask RestSearch<N, H>::let_go(ContactMask contacts, const Orbit<N, H>& orbit) {
   const ContactMask beyond = trial_.is_found() ? varies_most(contacts & trial_.stuck_throughout) : 0;
   return beyond != 0 ? beyond : slides_longest(contacts, orbit);
 }
 
-// Of these contacts, which the last trial held, the one whose force varies most, if by more than its limits
+// For these contacts, which the last trial held, the one whose force varies most, if by more than its limits
 // are apart: nothing that shifts the forces holds it. In a loop the others may, while it carries its limit.
 template <int N, int H>
 ContactMask RestSearch<N, H>::varies_most(ContactMask held) {
@@ -201,7 +201,7 @@ ContactMask RestSearch<N, H>::varies_most(ContactMask held) {
   return result;
 }
 
-// Of these contacts the one that slides longest.
+// For these contacts the one that slides longest.
 template <int N, int H>
 ContactMask RestSearch<N, H>::slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const {
   Eigen::Index longest = first(contacts);
@@ -211,7 +211,7 @@ ContactMask RestSearch<N, H>::slides_longest(ContactMask contacts, const Orbit<N
   return bit(longest);
 }
 
-// Beside a resonance without damping Newton's method may slide ever less and not arrive at an orbit whose
+// Near a resonance without damping Newton's method may slide ever less and not arrive at an orbit whose
 // contacts all stick. The symmetry of the orbit says where they rest, so that their forces alone decide.
 template <int N, int H>
 void RestSearch<N, H>::hold_all(Orbit<N, H>& orbit) {
@@ -388,7 +388,7 @@ bool RestSearch<N, H>::shift_to_middle(Orbit<N, H>& orbit) {
   return orbit.is_found() && orbit.stuck_throughout == stuck;
 }
 
-// Whether the shares that contacts are told to carry break the limits of some.
+// Whether the shares that contacts are said to carry break the limits of some.
 template <int N, int H>
 bool RestSearch<N, H>::shares_break_limits(const Orbit<N, H>& orbit) {
   return break_limits(forces_across(forces_.each_alone(flow_.equations().holding), orbit));

@@ -62,11 +62,11 @@ void SizedSolver<N, H>::search_row(std::span<const mechanics::NetworkValues> poi
 
 // A sweep begins at rest, at one end of the row.
 template <int N, int H>
-void SizedSolver<N, H>::sweep_row(std::span<const mechanics::NetworkValues> points,
-                                  std::span<ResponseSummary> found, std::span<double> out) {
+void SizedSolver<N, H>::slow_sweep_row(std::span<const mechanics::NetworkValues> points,
+                                       std::span<ResponseSummary> found, std::span<double> out) {
   const std::size_t quantities = points.empty() ? 0 : out.size() / points.size();
-  sweep_.begin();
-  for (const std::size_t i : in_order_of_sweep(points)) {
+  slow_sweep_.begin();
+  for (const std::size_t i : in_order_of_slow_sweep(points)) {
     found[i].reason = set(points[i]);
     if (!found[i].reason.empty()) continue;
     found[i] = solve();
@@ -75,7 +75,7 @@ void SizedSolver<N, H>::sweep_row(std::span<const mechanics::NetworkValues> poin
 }
 
 template <int N, int H>
-std::vector<std::size_t> SizedSolver<N, H>::in_order_of_sweep(
+std::vector<std::size_t> SizedSolver<N, H>::in_order_of_slow_sweep(
     std::span<const mechanics::NetworkValues> points) const {
   const double sign = wanted_.show == OrbitsWanted::Show::down ? -1.0 : 1.0;
   std::vector<std::size_t> order(points.size());
@@ -86,20 +86,20 @@ std::vector<std::size_t> SizedSolver<N, H>::in_order_of_sweep(
 
 // From the values at which the sweep is to those that are set.
 template <int N, int H>
-void SizedSolver<N, H>::sweep_on() {
+void SizedSolver<N, H>::slow_sweep_on() {
   constexpr int kHalvings = 10;  // an orbit that ends does so within a thousandth of the step
   const mechanics::NetworkValues here = values_;
   if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {
     search_.begin_row();
     search_.find(system_, undamped_modes_, true, orbit_);
-    if (orbit_.is_found()) sweep_.stand_on(orbit_);
+    if (orbit_.is_found()) slow_sweep_.stand_on(orbit_);
   } else {
-    const bool stays = sweep_.is_on_orbit() && goes_on(swept_, here, kHalvings);
+    const bool stays = slow_sweep_.is_on_orbit() && goes_on(swept_, here, kHalvings);
     if (!stays) {
       set(here);
-      sweep_.follow(system_);
+      slow_sweep_.follow(system_);
     }
-    sweep_.tell(system_, orbit_);
+    slow_sweep_.tell(system_, orbit_);
   }
   swept_ = here;
 }
@@ -110,7 +110,7 @@ template <int N, int H>
 bool SizedSolver<N, H>::goes_on(const mechanics::NetworkValues& from, const mechanics::NetworkValues& to,
                                 int halvings) {
   if (!set(to).empty()) return false;
-  if (sweep_.go_on(system_)) return true;
+  if (slow_sweep_.go_on(system_)) return true;
   if (halvings == 0) return false;
   const mechanics::NetworkValues middle = mechanics::halfway(from, to);
   return goes_on(from, middle, halvings - 1) && goes_on(middle, to, halvings - 1);

@@ -9,7 +9,7 @@
 #include "solvers/exact/nonstop_row.hpp"
 #include "solvers/exact/orbit_search.hpp"
 #include "solvers/exact/response.hpp"
-#include "solvers/exact/sweep.hpp"
+#include "solvers/exact/slow_sweep.hpp"
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/orbits/phase.hpp"
@@ -29,7 +29,7 @@ class SizedSolver final : public ResponseSolver {
         wanted_(wanted),
         search_(assembly_, flow_),
         coexistence_(assembly_, flow_, wanted),
-        sweep_(assembly_, flow_, wanted.most_multiple),
+        slow_sweep_(assembly_, flow_, wanted.most_multiple),
         observables_(assembly_, flow_, quantities),
         gradient_(assembly_, flow_, quantities) {
     if (path == Path::fastest && nonstop::NonstopSolver::serves(assembly_))
@@ -38,7 +38,7 @@ class SizedSolver final : public ResponseSolver {
 
   void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
                  std::span<double> out) override {
-    if (wanted_.is_sweep()) return sweep_row(points, found, out);
+    if (wanted_.is_slow_sweep()) return slow_sweep_row(points, found, out);
     if (nonstop_) nonstop::solve_row(*nonstop_, points, found, out);
     if (mechanics::may_have_several_responses(assembly_.network())) return search_row(points, found, out);
     solve_rest(points, found, out);
@@ -69,7 +69,7 @@ class SizedSolver final : public ResponseSolver {
   }
   void begin_row() override {
     search_.begin_row();
-    sweep_.begin();
+    slow_sweep_.begin();
     before_ = {};
   }
   const ResponseSummary& solve() override;
@@ -81,14 +81,14 @@ class SizedSolver final : public ResponseSolver {
 
   void quantities(std::span<double> out) override {
     if (has_response() || tells_motion_)
-      observables_.evaluate(orbit_, told(), out);
+      observables_.evaluate(orbit_, reported_system(), out);
     else
       observables_.fill_missing(orbit_.status, orbit_.unsettled, out);
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out) override {
     follow_tangent(flow_, orbit_);
-    return gradient_.evaluate(orbit_, told(), values_, directions, out);
+    return gradient_.evaluate(orbit_, reported_system(), values_, directions, out);
   }
   const char* why_no_derivative(std::size_t quantity) const override { return gradient_.why_none(quantity); }
 
@@ -96,7 +96,7 @@ class SizedSolver final : public ResponseSolver {
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) override {
     follow_tangent(flow_, orbit_);
     OrbitObservation<N, H> observation(flow_, observed);
-    return observation.observe(orbit_, assembly_, told(), values_, directions, times, out);
+    return observation.observe(orbit_, assembly_, reported_system(), values_, directions, times, out);
   }
 
   History history(std::span<const double> phases) override;
@@ -104,7 +104,7 @@ class SizedSolver final : public ResponseSolver {
 
  private:
   bool has_response() const { return orbit_.is_found(); }
-  const mechanics::LinearSystem& told() const { return orbit_.multiple > 1 ? longer_ : system_; }
+  const mechanics::LinearSystem& reported_system() const { return orbit_.multiple > 1 ? longer_ : system_; }
   void weigh();
   const ResponseSummary& conclude();
 
@@ -112,10 +112,10 @@ class SizedSolver final : public ResponseSolver {
   std::string set(const mechanics::NetworkValues& values);
   void search_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
                   std::span<double> out);
-  void sweep_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
-                 std::span<double> out);
-  std::vector<std::size_t> in_order_of_sweep(std::span<const mechanics::NetworkValues> points) const;
-  void sweep_on();
+  void slow_sweep_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
+                      std::span<double> out);
+  std::vector<std::size_t> in_order_of_slow_sweep(std::span<const mechanics::NetworkValues> points) const;
+  void slow_sweep_on();
   bool goes_on(const mechanics::NetworkValues& from, const mechanics::NetworkValues& to, int halvings);
 
   mechanics::Assembly assembly_;
@@ -128,7 +128,7 @@ class SizedSolver final : public ResponseSolver {
   OrbitSearch<N, H> search_;
   Coexistence<N, H> coexistence_;
   StableOrbits<N, H> before_;  // of the point before
-  Sweep<N, H> sweep_;
+  SlowSweep<N, H> slow_sweep_;
   mechanics::NetworkValues swept_;  // where the sweep is
   Observables<N, H> observables_;
   Gradient<N, H> gradient_;
@@ -141,8 +141,8 @@ class SizedSolver final : public ResponseSolver {
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
   const LimitedSearch limit(flow_.work());
-  if (wanted_.is_sweep()) {
-    sweep_on();
+  if (wanted_.is_slow_sweep()) {
+    slow_sweep_on();
   } else if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {
     search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
   } else {
@@ -152,7 +152,7 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   return conclude();
 }
 
-// Of the orbit that was found.
+// For the orbit that was found.
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::conclude() {
   observables_.forget();
@@ -198,7 +198,7 @@ std::vector<std::complex<double>> SizedSolver<N, H>::multipliers() {
 // searched again, or refused.
 template <int N, int H>
 void SizedSolver<N, H>::weigh() {
-  bool is_balanced = observables_.is_balanced(orbit_, told());
+  bool is_balanced = observables_.is_balanced(orbit_, reported_system());
   for (int way = 0; system_.monotone && !is_balanced && way < OrbitSearch<N, H>::kOtherWays; ++way) {
     if (search_.find_otherwise(way, system_, observables_.needs_stability(), orbit_))
       is_balanced = observables_.is_balanced(orbit_, system_);
@@ -227,7 +227,7 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
     Instant<N, H> instant;
     flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start),
                      orbit_.section + from_section, mode, instant);
-    result.time.push_back(phase / told().omega);
+    result.time.push_back(phase / reported_system().omega);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < n; ++mass) {
       result.columns[column++].push_back(sign * instant.z[mass]);
@@ -283,7 +283,6 @@ std::vector<Stretch> SizedSolver<N, H>::stretches() const {
 namespace frahm::periodic {
 
 extern template class SizedSolver<1, 1>;
-extern template class SizedSolver<1, 2>;
 extern template class SizedSolver<2, 1>;
 extern template class SizedSolver<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -28,8 +28,8 @@ class StableSearch {
   using Index = std::optional<std::size_t>;  // in Orbits::stable
 
   // Periods that a motion is followed for at most.
-  static constexpr int kOfStart = 324;  // one of many
-  static constexpr int kOfSweep = 972;  // just beyond a fold it lingers where the orbit was
+  static constexpr int kOfStart = 324;      // one of many
+  static constexpr int kOfSlowSweep = 972;  // just beyond a fold it lingers where the orbit was
 
   // Both must outlive the search.
   StableSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow, int most_multiple)
@@ -254,7 +254,7 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::of_known_family(const Sta
 }
 
 // Where an event only just happens, or a contact at rest only just holds, the multipliers do not exist or say
-// nothing of the motions beside the orbit on one side; they are followed. as_found: the orbit before its
+// nothing of the motions next to the orbit on one side; they are followed. as_found: the orbit before its
 // contacts that stick throughout were brought to rest.
 template <int N, int H>
 bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, const Orbit<N, H>& as_found, Orbits& found) {
@@ -283,8 +283,8 @@ bool StableSearch<N, H>::is_edge_of_stable_family(const Orbit<N, H>& orbit, cons
   return inside.is_stable();
 }
 
-// Whether the motion beside an orbit comes closer to it. The rest positions of contacts that stick throughout
-// do not count.
+// Whether the motion next to an orbit comes closer to it. The rest positions of contacts that stick
+// throughout do not count.
 template <int N, int H>
 bool StableSearch<N, H>::dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found) {
   constexpr double kGone = 0.1, kGrown = 10.0;
@@ -367,10 +367,10 @@ template <int N, int H>
 void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
                               Orbit<N, H>& orbit) {
   flow_.work().begin();
-  const StableOrbit<N, H>& told = found.stable[which];
+  const StableOrbit<N, H>& reported = found.stable[which];
   orbit = {};
-  orbit.z = told.returns.front();
-  orbit.multiple = told.multiple();
+  orbit.z = reported.returns.front();
+  orbit.multiple = reported.multiple();
   if (orbit.multiple > 1) flow_.set_forcing(over_multiple(system, orbit.multiple));
   shooting_.find(orbit);
   int passages = orbit.passages + found.passages;

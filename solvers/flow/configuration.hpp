@@ -9,9 +9,10 @@ namespace frahm::periodic {
 
 // The linear system that moves while one set of contacts sticks and the others slide. With G = W^T M^-1 W
 // over the held contacts and P = 1 - M^-1 W G^+ W^T:
-//   q'' = -P M^-1 (K q + C v + D s + W phi) + Au u(t),   phi_j = sigma_j F_j of the contacts that slide, else
-//   0 s'  = spring (D^T v + p^T y') - rate s,              spring = k, 0 of an internal force that is held
-//   lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j of the stuck contacts (of an internal force: s)
+//   q'' = -P M^-1 (K q + C v + D s + W phi) + Au u(t),   phi_j = sigma_j F_j of the contacts that slide,
+//   otherwise 0 s'  = spring (D^T v + p^T y') - rate s,              spring = k, 0 of an internal force that
+//   is held lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j of the stuck contacts (of an internal force:
+//   s)
 // K, C and the forcing are those beyond a set of bends (StepBends).
 // Small systems have tables of all this (StepTables); large ones, which meet thousands of sets in a period,
 // only the inverse of G over the held contacts (HeldContacts), from which the rest follows where it is asked.

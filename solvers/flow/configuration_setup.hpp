@@ -136,7 +136,7 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
     const typename S::Contacts share = forces_for(equations, equations.mobility.col(j));
     typename S::OscillatorRow drag = equations.support_velocity.row(j);
     drag.noalias() -= share.transpose() * equations.support_velocity;
-    // Of the terms: it may touch no support itself, between masses that one and the same support holds.
+    // For the terms: it may touch no support itself, between masses that one and the same support holds.
     const typename S::Contacts speed = equations.support_velocity.rowwise().norm();
     const double size = speed[j] + share.cwiseAbs().dot(speed);
     if (contains(immobile_, j) && drag.norm() <= 1e-12 * size) idle |= bit(j);

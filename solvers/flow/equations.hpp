@@ -59,16 +59,16 @@ struct StepEquations {
   Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h, 0 without a damper
   Eigen::MatrixXd internal_drive;                     // k p^T y'(t) [N a step]
   Eigen::VectorXd phase_rate;                         // order_k omega h [rad a step], size H
-  // Of the records' numbers r, r', r'', r''' (mechanics/recorded_columns.hpp): the size in which each is
+  // For the records' numbers r, r', r'', r''' (mechanics/recorded_columns.hpp): the size in which each is
   // counted [SI]; the rate at which it changes per size of the next [1/step], 0 of r'''; their values at an
   // instant from which on they are polynomials, none before they are set; and omega t there [rad].
   Eigen::VectorXd recorded_size, recorded_rate, recorded_at;
   double recorded_phase = 0.0;
   // Where recorded supports take the masses, if all is slow: q_s = quasi_static u(t), n x oscillators, 0
   // columns where there are none. It is no faster than a record's cubic, so that what is bounded by rates is
-  // the motion beside it, which supports that drift far away do not enlarge.
+  // the motion next to it, which supports that drift far away do not enlarge.
   Eigen::MatrixXd quasi_static, quasi_static_velocity;
-  typename S::Contacts support_speed;  // what supports add to a contact's sliding speed beside q_s [m a step]
+  typename S::Contacts support_speed;  // what supports add to the sliding speed, next to q_s [m a step]
   StepBends<N, H> bends;
   bool monotone = true;          // LinearSystem::monotone
   SparseSystem sparse;           // of a large system

@@ -25,7 +25,7 @@ struct Mode {
   typename Sizes<N, H>::Contacts friction;     // sigma_j F_j of contacts that slide; 0 if a state [N]
   typename Sizes<N, H>::Vector acceleration;   // due to it
   typename Sizes<N, H>::Contacts stuck_force;  // of the stuck contacts, due to it [N]
-  // Of a small system: Ef * friction, series_f * friction (StepTables).
+  // For a small system: Ef * friction, series_f * friction (StepTables).
   typename Sizes<N, H>::State step;
   typename Sizes<N, H>::Series series;
   Eigen::VectorXd guards;  // guard_f * friction, with stuck_force
@@ -71,7 +71,7 @@ struct Expansion {
   }
 };
 
-// Of a tangent: to the last digits, or to about 1e-3, which serves for steps of an iteration.
+// For a tangent: to the last digits, or to about 1e-3, which serves for steps of an iteration.
 enum class Precision { exact, rough };
 
 template <int N, int H>
@@ -100,10 +100,10 @@ class Flow {
   double energy_scale(const typename S::State& z) const {
     return std::max(equations_.energy_norm(z), static_norm_);
   }
-  // The same of a state at `phase`, beside where recorded supports take it.
+  // The same for a state at `phase`, next to where recorded supports take it.
   double energy_scale(const typename S::State& z, double phase) const;
 
-  // Of all motions that are followed on this flow; and what a step and an event add to it [s].
+  // For all motions that are followed on this flow; and what a step and an event add to it [s].
   SearchWork& work() { return work_; }
   double step_work() const { return step_work_; }
   double event_work() const { return event_work_; }
@@ -155,7 +155,7 @@ class Flow {
   // The force of a stuck contact [N]: lambda_j, or its internal force if it has one; and its slope a step.
   ValueAndSlope stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
   Polynomial stuck_force(const Expansion<N, H>& x, const Mode<N, H>& mode, Eigen::Index contact) const;
-  // The guard of a contact over the step that starts at an instant: stuck_force while it sticks, else
+  // The guard of a contact over the step that starts at an instant: stuck_force while it sticks, otherwise
   // sliding_speed. Of a system with tables and of a size that is not fixed.
   Polynomial guard(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
   // The part of stuck_force that the state makes, as a form over the state: (Lq, Lv, Ls)_j.
@@ -201,7 +201,6 @@ class Flow {
 
 // The sizes that are known at compile time are instantiated in flow/flow_*.cpp, each in its own file.
 extern template class Flow<1, 1>;
-extern template class Flow<1, 2>;
 extern template class Flow<2, 1>;
 extern template class Flow<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -148,7 +148,7 @@ void set_quasi_static(const mechanics::LinearSystem& system, StepEquations<N, H>
         (eq.support_velocity.row(j) + eq.W.col(j).transpose() * eq.quasi_static_velocity).norm();
 }
 
-// 1/2 sum_k f_k^H K^-1 f_k of the forcing's amplitudes [J], of what drives the motion beside q_s:
+// 1/2 sum_k f_k^H K^-1 f_k of the forcing's amplitudes [J], of what drives the motion next to q_s:
 //   f - M q_s'' - C q_s' - K q_s
 template <int N, int H>
 double static_energy(const StepEquations<N, H>& eq) {
@@ -166,7 +166,7 @@ double static_energy(const StepEquations<N, H>& eq) {
 }
 
 // What moving supports can give by the contacts that rub on them: 1/2 F^2 w^T K^-1 w by its force, and no
-// more than 1/2 |p^T Y|^2 / (w^T K^-1 w) where it is dragged along by Y, beside q_s; a belt drags on for
+// more than 1/2 |p^T Y|^2 / (w^T K^-1 w) where it is dragged along by Y, next to q_s; a belt drags on for
 // ever.
 template <int N, int H>
 double dragged_energy(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system) {

@@ -186,7 +186,6 @@ LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node, const mech
 
 // Compiled once for each size, in flow_1_1.cpp and so on.
 extern template class Forms<1, 1>;
-extern template class Forms<1, 2>;
 extern template class Forms<2, 1>;
 extern template class Forms<Eigen::Dynamic, Eigen::Dynamic>;
 

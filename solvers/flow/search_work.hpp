@@ -4,12 +4,12 @@
 
 namespace frahm::periodic {
 
-// Of the search for the orbits of one point [s]: `check`, and a run that is told to stop, wait for it.
+// For the search for the orbits of one point [s]: `check`, and a run that is asked to stop, wait for it.
 inline constexpr double kMostWork = 10.0;
 inline constexpr const char* kSearchIsLong =
-    "the search was ended after some ten seconds of work: its motions have so many steps and events";
+    "the search was ended after about ten seconds of work, because its motions have so many steps and events";
 
-// The work of the motions that a search follows, reckoned from their steps and events, so that a search which
+// The work of the motions that a search follows, computed from their steps and events, so that a search which
 // is too long ends after the same passage on every machine. In seconds of a core of 2026, within a factor of
 // three.
 class SearchWork {

@@ -8,8 +8,8 @@ namespace frahm::periodic {
 
 // One configuration and its flow over a step, as tables over all states: of small systems, in which they take
 // less time than the equation itself.
-//   q'' = Aq q + Av v + As s + Au u(t) + Af phi,   phi_j = sigma_j F_j of the contacts that slide, else 0
-//   z(1) = E z(0) + Eu u(0) + Ef phi,
+//   q'' = Aq q + Av v + As s + Au u(t) + Af phi,   phi_j = sigma_j F_j of the contacts that slide, otherwise
+//   0 z(1) = E z(0) + Eu u(0) + Ef phi,
 // the exponential of the matrix augmented by the oscillators of the forcing (C. Van Loan, IEEE Trans. Autom.
 // Control 23 (1978) 395): finite at resonance of an undamped mode and at critical damping alike.
 template <int N, int H>
@@ -36,8 +36,8 @@ struct StepTables {
   typename S::StateByOscillators Eu;
   typename S::StateByContacts Ef;
 
-  // The guard of each contact over a step, kTerms rows each: the force that holds it while it sticks, else
-  // its velocity; of sizes that are not fixed, where an event need not expand the whole state.
+  // The guard of each contact over a step, kTerms rows each: the force that holds it while it sticks,
+  // otherwise its velocity; of sizes that are not fixed, where an event need not expand the whole state.
   typename S::ContactsByState guard;  // over the state at one instant
   Eigen::MatrixXd guard_z, guard_u, guard_f;
 

@@ -32,8 +32,8 @@ inline void Flow<N, H>::accelerate(const Mode<N, H>& mode, Instant<N, H>& at) co
   }
 }
 
-// Stuck contacts are held anew after each step: what rounding leaves of their velocity would else move them
-// on for the rest of the period, which has 10^4 steps and more where the excitation is slow.
+// Stuck contacts are held again after each step: what rounding leaves of their velocity would otherwise move
+// them on for the rest of the period, which has 10^4 steps and more where the excitation is slow.
 template <int N, int H>
 inline bool Flow<N, H>::step(const Instant<N, H>& from, const Mode<N, H>& mode, Instant<N, H>& to,
                              Expansion<N, H>& x) const {

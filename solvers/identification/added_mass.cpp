@@ -30,8 +30,8 @@ std::string wrong(const AddedMassRows& rows) {
                   [](double nu) { return !(nu > 0.0); }))
     return "the degrees of freedom of a standard error must be positive";
   const auto [least, most] = std::minmax_element(rows.added.begin(), rows.added.end());
-  if (rows.added.size() < 2 || *least == *most) return "it takes two different added masses at least";
-  if (*least < 0.0) return "an added mass is " + number(*least) + " kg, it must not be negative";
+  if (rows.added.size() < 2 || *least == *most) return "at least two different added masses are needed";
+  if (*least < 0.0) return "an added mass is " + number(*least) + " kg: it must not be negative";
   return "";
 }
 
@@ -60,7 +60,7 @@ Identification added_mass(const AddedMassRows& rows) {
   if (!(slope > 0.0 && at_zero > 0.0))
     return no_result(
         "the frequencies do not fall with the added mass as those of a mass on a spring: 1/omega^2 = " +
-        number(at_zero) + " + " + number(slope) + " added, both must be positive");
+        number(at_zero) + " + " + number(slope) + " added; both numbers must be positive");
   const Scatter s = known ? Scatter{1.0, kInfinity} : scatter(fit.chi_squared, fit.degrees_of_freedom, 0.0);
   // m = p_0 / p_1, k = 1 / p_1
   Eigen::Matrix2d by_p;
@@ -68,7 +68,7 @@ Identification added_mass(const AddedMassRows& rows) {
   const Eigen::MatrixXd by_data = by_p * fit.influence * sigma.asDiagonal();
   Identification result;
   result.estimates = {
-      {.name = "mass", .unit = "kg", .long_name = "mass without any added", .value = at_zero / slope},
+      {.name = "mass", .unit = "kg", .long_name = "mass without added mass", .value = at_zero / slope},
       {.name = "stiffness", .unit = "N m-1", .long_name = "stiffness", .value = 1.0 / slope}};
   result.covariance = s.variance * by_data * by_data.transpose();
   result.degrees_of_freedom = s.degrees_of_freedom;

@@ -15,7 +15,7 @@ struct AddedMassRows {
   std::vector<double> degrees_of_freedom = {};
 };
 
-// 1/omega^2 = (m + added) / k by least squares. Intervals come from the given standard errors, or else from
+// 1/omega^2 = (m + added) / k by least squares. Intervals come from the given standard errors, otherwise from
 // the residuals. The degrees of freedom of an estimate are then those of Welch and Satterthwaite, nu = u^4 /
 // sum u_i^4 / nu_i, u_i the part of the standard error u that frequency i has.
 // Estimates: mass [kg], stiffness [N m-1].

@@ -20,7 +20,7 @@ std::string wrong(Samples time, Samples displacement) {
                 unless_finite("time", time), unless_finite("displacement", displacement)});
   if (!bad.empty()) return bad;
   if (time.size() < kLeastSamples)
-    return "the record has " + std::to_string(time.size()) + " samples, it takes " +
+    return "the record has " + std::to_string(time.size()) + " samples, it needs " +
            std::to_string(kLeastSamples) + " at least";
   for (std::size_t i = 1; i < time.size(); ++i) {
     if (!(time[i] > time[i - 1]))
@@ -113,7 +113,7 @@ struct Turns {
   double rss = 0.0, degrees_of_freedom = 0.0;  // [m^2]
 
   double time(std::size_t k) const { return quarters[k].at + quarters[k].radian * fits[k].phase; }
-  // The mean half period; delta of phi_3 beside phi_2, a_3 = -2 delta' a_2, by least squares over all turns.
+  // The mean half period; delta of phi_3 next to phi_2, a_3 = -2 delta' a_2, by least squares over all turns.
   Shape shape() const {
     double product = 0.0, square = 0.0;
     for (const TurningPoint& fit : fits) {
@@ -176,7 +176,7 @@ FoundExtrema find_extrema(Samples time, Samples displacement) {
   if (turned.size() < 2)
     return none("the record turns " + std::to_string(turned.size()) + " times by more than " + number(swing) +
                 " m, the threshold of " + number(kAboveNoise) + " standard deviations of its noise, " +
-                number(noise) + " m: it takes two turning points at least");
+                number(noise) + " m: at least two turning points are needed");
   if (const std::string fault = unless_whole(time, displacement, turned); !fault.empty()) return none(fault);
   // The turning samples give a first shape for the fits, which then give a better one.
   const double half_period =
@@ -185,8 +185,8 @@ FoundExtrema find_extrema(Samples time, Samples displacement) {
   if (fitted.fits.size() > 1) fitted = fit_turns(time, displacement, turned, fitted.shape());
   if (fitted.fits.size() < 2)
     return none("only " + std::to_string(fitted.fits.size()) + " of " + std::to_string(turned.size()) +
-                " turning points can be fitted: it takes six samples about each at least, two on either "
-                "side, within the record and out of the noise");
+                " turning points can be fitted: each needs at least six samples around it, two on either "
+                "side, within the record and above the noise");
   FoundExtrema found = found_of(fitted);
   const std::size_t left_out = turned.size() - fitted.fits.size();
   if (left_out > 0)

@@ -69,7 +69,8 @@ std::string unless_decaying(const DecayExtrema& extrema, std::size_t least) {
   if (std::string bad = wrong_sizes(extrema); !bad.empty()) return bad;
   const auto& x = extrema.displacement;
   if (x.size() < least)
-    return "it takes " + std::to_string(least) + " extremes at least, there are " + std::to_string(x.size());
+    return "at least " + std::to_string(least) + " extremes are needed, there are " +
+           std::to_string(x.size());
   for (std::size_t i = 1; i < x.size(); ++i) {
     if (!extrema.time.empty() && !(extrema.time[i] > extrema.time[i - 1]))
       return "the time of extreme " + std::to_string(i + 1) + " is " + number(extrema.time[i]) + " s after " +

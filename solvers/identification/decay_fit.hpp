@@ -11,7 +11,7 @@
 namespace frahm::identification {
 
 // "" where the extremes can be used: at least `least` of them, finite, times increasing and about
-// evenly spaced, maxima and minima in turn, not growing; else a sentence that says why not.
+// evenly spaced, maxima and minima in turn, not growing; otherwise a sentence that says why not.
 std::string unless_decaying(const DecayExtrema& extrema, std::size_t least);
 
 // The standard errors of the extremes, or ones where they are not known.
@@ -21,7 +21,7 @@ Eigen::VectorXd displacement_sigma(const DecayExtrema& extrema);
 // omega_d / sqrt(1 - zeta^2) to a result whose damping_ratio is zeta; nothing where no times are known.
 void add_frequencies(const DecayExtrema& extrema, double zeta, Identification& result);
 
-// The measured extremes beside their fitted values.
+// The measured extremes next to their fitted values.
 FittedRecord extrema_record(const DecayExtrema& extrema, const Eigen::VectorXd& fitted);
 
 }  // namespace frahm::identification

@@ -21,8 +21,8 @@ std::string wrong(const EnergyRows& rows) {
       std::find_if(rows.energy.begin(), rows.energy.end(), [](double E) { return E < 0.0; });
   if (negative != rows.energy.end())
     return "energy " + std::to_string(negative - rows.energy.begin() + 1) + " of " + std::to_string(n) +
-           " is " + number(*negative) + " J, what a damper and friction take must not be negative";
-  if (n < 2) return "it takes two amplitudes at least, there is " + std::to_string(n);
+           " is " + number(*negative) + " J: the energy that a damper and friction take must not be negative";
+  if (n < 2) return "at least two amplitudes are needed, there is " + std::to_string(n);
   if (rows.omega.size() != 1 && rows.omega.size() != n)
     return "there are " + std::to_string(rows.omega.size()) + " frequencies for " + std::to_string(n) +
            " rows";
@@ -60,8 +60,8 @@ std::string alike(const EnergyRows& rows) {
   if (!one_amplitude && !rows.velocity_rms.empty())
     what = "one rms velocity squared over frequency times amplitude, " +
            number(rows.velocity_rms[0] * rows.velocity_rms[0] / (omega * X)) + " m/s,";
-  return "all " + std::to_string(rows.energy.size()) + " rows are of " + what +
-         ": damper and friction cannot be told apart";
+  return "all " + std::to_string(rows.energy.size()) + " rows have " + what +
+         ": damper and friction cannot be distinguished";
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ std::string wrong(const ResonancePairs& pairs) {
   if (!bad.empty()) return bad;
   const auto [least, most] = std::minmax_element(pairs.response.begin(), pairs.response.end());
   if (pairs.response.size() < 2 || *least == *most)
-    return "it takes two pairs of different response at least";
+    return "at least two pairs of different response are needed";
   return "";
 }
 
@@ -93,10 +93,10 @@ std::string unless_underdamped(double slope, ResponseTo shaken_by) {
   const double zeta = ratio_of(slope, shaken_by).value;
   if (zeta < 1.0) return "";
   return "a slope of " + number(slope) + " is that of a damping ratio of " + number(zeta) +
-         ", it must be below 1";
+         ": it must be below 1";
 }
 
-// "" if the line rises by more than rounding, else a sentence.
+// "" if the line rises by more than rounding, otherwise a sentence.
 std::string unless_rising(const Eigen::VectorXd& X, const Eigen::VectorXd& Y, double slope,
                           ResponseTo shaken_by) {
   constexpr double kRounding = 1e-9;
@@ -117,7 +117,7 @@ std::string wrong(const ResonanceLines& lines, ResponseTo shaken_by) {
 std::string wrong(const OneMass& known) {
   for (const auto& value : {known.mass, known.stiffness}) {
     if (value && !(std::isfinite(*value) && *value > 0.0))
-      return "mass and stiffness must be positive and finite, one is " + number(*value);
+      return "mass and stiffness must be positive and finite, but one is " + number(*value);
   }
   return "";
 }
@@ -208,7 +208,7 @@ void note_stops(const Eigen::VectorXd& Y, double zeta, double x_f, ResponseTo sh
   if (stopping > 0)
     result.notes.push_back(
         std::to_string(stopping) + " of " + std::to_string(Y.size()) +
-        " pairs are of a motion that stops in each half cycle, for which the formulas do not hold");
+        " pairs belong to a motion that stops in each half cycle, for which the formulas do not hold");
 }
 
 // The line takes the responses as exact. R^2 = 1 - |y - yhat|^2 / |y - mean y|^2
@@ -216,8 +216,8 @@ void note_scatter(const Eigen::VectorXd& Y, const LinearFit& line, Identificatio
   constexpr double kLeast = 0.95;
   const double explained = 1.0 - line.residuals.squaredNorm() / (Y.array() - Y.mean()).matrix().squaredNorm();
   if (explained >= kLeast) return;
-  result.notes.push_back("the pairs scatter about the line, R^2 = " + number(explained) +
-                         ": as far as that is of the response, slope and damping are too small, and "
+  result.notes.push_back("the pairs scatter about the line with R^2 = " + number(explained) +
+                         ": if the scatter comes from the response, slope and damping are too small, and "
                          "their intervals too narrow");
 }
 

@@ -37,7 +37,7 @@ struct ResonanceLines {
   std::vector<double> intercept;  // [m]
 };
 
-// The same of the means of the lines; damping_ratio and friction_displacement take the line for the
+// The same for the means of the lines; damping_ratio and friction_displacement take the line for the
 // hyperbola's asymptote. Intervals come from the spread of the lines, NaN of one.
 Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by, const OneMass& known = {});
 

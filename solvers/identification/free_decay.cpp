@@ -143,13 +143,13 @@ void add_forces(Identification& result, const OneMass& known, double zeta, doubl
 
 std::string wrong(const OneMass& known, bool has_times) {
   if (known.mass && known.stiffness)
-    return "mass and stiffness are both given: the natural frequency is measured";
+    return "mass and stiffness are both given, but the natural frequency is measured: give only one of them";
   if (!has_times && (known.mass || known.stiffness))
-    return "forces take the natural frequency, and the extremes have no times";
+    return "forces need the natural frequency, but the extremes have no times";
   for (const auto& value : {known.mass, known.stiffness}) {
     if (value && !(std::isfinite(*value) && *value > 0.0))
       return std::string(known.mass ? "the mass" : "the stiffness") + " is " + number(*value) +
-             ", it must be positive and finite";
+             ": it must be positive and finite";
   }
   return "";
 }
@@ -172,11 +172,11 @@ void set_estimates(const LeastSquaresFit& fit, const Recursion& first, const Eig
        .value = ratio_of(first.beta)},
       {.name = "friction_displacement_first",
        .unit = "m",
-       .long_name = "friction force over stiffness by that regression",
+       .long_name = "friction force over stiffness by the regression of each extreme on the one before",
        .value = first.x_f}};
   if (fit.p.size() > 3)
     result.estimates.push_back(
-        {.name = "offset", .unit = "m", .long_name = "what the sensor shows at rest", .value = fit.p[3]});
+        {.name = "offset", .unit = "m", .long_name = "reading of the sensor at rest", .value = fit.p[3]});
   result.covariance = by_x * by_x.transpose();
 }
 
@@ -191,7 +191,8 @@ void mark_undetermined(const LeastSquaresFit& fit, double size, Identification& 
     result.covariance.col(i) = result.covariance.row(i).transpose();
   }
   for (Index i = 0; i < 4; ++i) result.covariance(i, i) = kInfinity;
-  result.notes.emplace_back("the extremes are all of one size: damping and friction cannot be told apart");
+  result.notes.emplace_back(
+      "the extremes all have the same size: damping and friction cannot be distinguished");
 }
 
 // How the estimates change with the extremes, each by its standard error.

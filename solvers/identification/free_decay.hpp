@@ -11,7 +11,7 @@
 namespace frahm::identification {
 
 struct FreeDecayOptions {
-  OneMass known;               // at most one of mass and stiffness; else nothing in N is estimated
+  OneMass known;               // at most one of mass and stiffness; otherwise nothing in N is estimated
   bool sensor_offset = false;  // the sensor's zero is not where the spring is at rest: fit it
 };
 

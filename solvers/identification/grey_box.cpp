@@ -71,8 +71,9 @@ void note_quality(const GreyBoxTask& task, bool held, Identification& result) {
     if (held || !(record.nrmse < kExact)) continue;
     for (const FittedSeries& series : record.series) {
       if (lag_one(series) <= kRepeats) continue;
-      result.notes.push_back("what is left of " + series.name + " in record '" + record.name +
-                             "' is no noise, its values follow one another: the intervals are too narrow");
+      result.notes.push_back(
+          "the residual of " + series.name + " in record '" + record.name +
+          "' is not noise, because its values are correlated: the intervals are too narrow");
     }
   }
 }
@@ -84,7 +85,7 @@ void note_bounds(const LeastSquaresFit& fit, const std::vector<Unknown>& unknown
     if (fit.at_bound[i] == 0) continue;
     const char* side = fit.at_bound[i] < 0 ? "lower" : "upper";
     result.notes.push_back("`" + unknowns[i].name + "` is held by its " + side +
-                           " bound, beyond which the fit would be better: its interval is not to be trusted");
+                           " bound, beyond which the fit would be better: do not trust its interval");
   }
 }
 
@@ -140,7 +141,7 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
   for (const FixedParameter& fixed : task.fixed)
     result.estimates.push_back({.name = fixed.name,
                                 .unit = fixed.unit,
-                                .long_name = fixed.name + " as found before",
+                                .long_name = fixed.name + " as identified before",
                                 .value = fixed.value});
   result.degrees_of_freedom = static_cast<double>(fit.residuals.size() - fit.p.size());
   const double variance =
@@ -150,8 +151,8 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
     J = fit.jacobian;
     J_fixed.setZero();
     result.notes.push_back(
-        "the motion has no derivative by what was found before, whose uncertainty is left "
-        "out: " +
+        "the motion has no derivative with respect to the estimates used from before, so their uncertainty "
+        "is left out: " +
         misfit.reason());
   }
   const MatrixXd own = covariance(J, variance, scales);
@@ -173,8 +174,8 @@ void span_rivals(const std::vector<VectorXd>& rivals, Identification& result) {
     }
   }
   result.notes.push_back(
-      "another minimum is as low to within noise, such as one of a half swing more or fewer before rest: the "
-      "intervals span both, and reach beyond their standard errors");
+      "another minimum is equally low within the noise, for example with one half swing more or fewer before "
+      "rest: the intervals span both, and reach beyond their standard errors");
 }
 
 // Weights by the residuals, until they settle.
@@ -203,7 +204,7 @@ std::string too_few(const Misfit& misfit) {
   const std::size_t unknowns = misfit.unknowns().size();
   if (misfit.residuals() >= static_cast<Index>(unknowns)) return "";
   return "the records have " + std::to_string(misfit.residuals()) + " measured values for " +
-         std::to_string(unknowns) + " unknowns: at least as many are needed";
+         std::to_string(unknowns) + " unknowns: at least as many values as unknowns are needed";
 }
 
 // ": " and why the model cannot be computed or differentiated at p; "": it can.
@@ -231,22 +232,22 @@ Identification grey_box(const GreyBoxTask& task) {
   const bool moves = fit.jacobian.size() > 0 && misfit.moves(fit.p);
   result.converged = fit.converged && moves;
   if (!fit.converged || fit.jacobian.size() == 0) {
-    const std::string what = "the fit found no least sum of squares: " + fit.reason;
+    const std::string what = "the fit did not find a least sum of squares: " + fit.reason;
     if (fit.jacobian.size() == 0) {
       result.failure = what + why_no_derivative(misfit, fit.p);
       return result;
     }
-    result.notes.push_back(what + "; these are the best values met");
+    result.notes.push_back(what + "; these are the best values found");
   }
   if (!moves)
     result.notes.push_back(
-        "at the best values met nothing moves, and nothing tells the way: start elsewhere, with less "
-        "friction");
+        "nothing moves at the best values found, so no direction of improvement is known: start elsewhere, "
+        "with less friction");
   estimate(task, misfit, fit, result);
   result.records = misfit.fitted(fit.p);
   note_bounds(fit, misfit.unknowns(), is_exact(result.records), result);
   const bool held = std::ranges::any_of(fit.at_bound, [](int side) { return side != 0; });
-  if (!held) span_rivals(minima.rivals(), result);  // beside what a bound holds is no noise
+  if (!held) span_rivals(minima.rivals(), result);  // the neighbourhood of a bound is not noise
   note_quality(task, held, result);
   return result;
 }

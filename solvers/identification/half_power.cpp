@@ -97,7 +97,7 @@ Identification half_power(const HalfPowerRows& rows, ResponseTo shaken_by) {
   if (const std::string why = wrong(rows); !why.empty()) return no_result(why);
   RowColumn zeta{"zeta", "1", "damping ratio, to first order", {}};
   RowColumn exact{"zeta_exact", "1", "damping ratio of the viscous mass with these half-power points", {}};
-  RowColumn increase{"increase", "1", "zeta over that of the first row, less one", {}};
+  RowColumn increase{"increase", "1", "zeta over that of the first row, minus one", {}};
   for (std::size_t i = 0; i < rows.peak.size(); ++i) {
     zeta.values.push_back(half_power_first_order(rows.peak[i], rows.lower[i], rows.upper[i]));
     exact.values.push_back(half_power_exact(rows.lower[i], rows.upper[i], shaken_by));

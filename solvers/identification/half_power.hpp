@@ -12,9 +12,9 @@ namespace frahm::identification {
 // zeta = (f2 - f1) / (2 f_n), to first order in zeta. Frequencies > 0 of one unit.
 double half_power_first_order(double peak, double lower, double upper);
 
-// zeta of the viscous mass whose half-power points are f1 < f2, exactly. 0 < f1 < f2 of one unit, else NaN.
-// Force:    zeta = sin(atan((f2^2 - f1^2) / (f2^2 + f1^2)) / 2), up to sin(pi/8).
-// Support:  solved, up to 0.5412; with more damping the peak is less than sqrt(2) high.
+// zeta of the viscous mass whose half-power points are f1 < f2, exactly. 0 < f1 < f2 of one unit, otherwise
+// NaN. Force:    zeta = sin(atan((f2^2 - f1^2) / (f2^2 + f1^2)) / 2), up to sin(pi/8). Support:  solved, up
+// to 0.5412; with more damping the peak is less than sqrt(2) high.
 double half_power_exact(double lower, double upper, ResponseTo shaken_by);
 
 // Rows of a table, frequencies of one unit.

@@ -14,7 +14,7 @@ namespace {
 using Index = Eigen::Index;
 using std::numbers::pi;
 
-std::string wrong(const LoopTraces& traces, const std::optional<double>& omega) {
+std::string wrong(const LoopTraces& traces) {
   const std::size_t n = traces.time.size();
   const std::string bad = first_of(
       {unless_equal("time, displacement and force", {n, traces.displacement.size(), traces.force.size()}),
@@ -22,14 +22,12 @@ std::string wrong(const LoopTraces& traces, const std::optional<double>& omega) 
        unless_finite("force", traces.force)});
   if (!bad.empty()) return bad;
   constexpr std::size_t kLeast = 8;
-  if (n < kLeast) return "the loop has " + std::to_string(n) + " samples, it takes 8 at least";
+  if (n < kLeast) return "the loop has " + std::to_string(n) + " samples: at least 8 are needed";
   for (std::size_t i = 1; i < n; ++i) {
     if (!(traces.time[i] > traces.time[i - 1]))
       return "time " + std::to_string(i + 1) + " is " + number(traces.time[i]) + " s after " +
              number(traces.time[i - 1]) + " s: times must increase";
   }
-  if (omega && !(std::isfinite(*omega) && *omega > 0.0))
-    return "the frequency is " + number(*omega) + " rad/s, it must be positive and finite";
   return "";
 }
 
@@ -151,7 +149,7 @@ void set_estimates(const Unknowns& u, double omega_variance, Identification& res
       {.name = "storage_stiffness", .unit = "N m-1", .long_name = "stiffness in phase", .value = k.value},
       {.name = "equivalent_damping",
        .unit = "N s m-1",
-       .long_name = "viscous damping of the same loss",
+       .long_name = "viscous damping with the same loss",
        .value = W.value / V.value},
       {.name = "frequency",
        .unit = "rad s-1",
@@ -173,7 +171,7 @@ void set_estimates(const Unknowns& u, double omega_variance, Identification& res
   add_from(result,
            {.name = "equivalent_friction",
             .unit = "N",
-            .long_name = "Coulomb friction force of the same loss",
+            .long_name = "Coulomb friction force with the same loss",
             .value = friction},
            {{"energy_loss", 0.25 / X.value}, {"amplitude", -friction / X.value}});
 }
@@ -188,7 +186,7 @@ void check_loss(double force, Identification& result) {
   const auto k = find("storage_stiffness"), X = find("amplitude"), W = find("energy_loss");
   if (W->value < 0.0 && !(W->high > 0.0))
     result.notes.push_back(
-        "the loop runs the other way: is the force's sign that of a force against the motion?");
+        "the loop runs the other way: does the force have the sign of a force that opposes the motion?");
   const bool none = std::abs(k->value) * X->value <= kRounding * force;
   if (!none && !(k->low <= 0.0 && k->high >= 0.0)) return;
   const Index loss = find("loss_factor") - result.estimates.begin();
@@ -201,8 +199,8 @@ void check_loss(double force, Identification& result) {
 
 }  // namespace
 
-Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> omega) {
-  if (const std::string why = wrong(traces, omega); !why.empty()) return no_result(why);
+Identification hysteresis_loop(const LoopTraces& traces) {
+  if (const std::string why = wrong(traces); !why.empty()) return no_result(why);
   const auto n = static_cast<Index>(traces.time.size());
   const double middle = 0.5 * (traces.time.front() + traces.time.back()),
                duration = traces.time.back() - traces.time.front();
@@ -211,24 +209,22 @@ Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> o
       force(traces.force.data(), n);
   if (displacement.maxCoeff() == displacement.minCoeff())
     return no_result("the displacement does not change");
-  const double start = omega.value_or(crossing_frequency(time, displacement));
+  const double start = crossing_frequency(time, displacement);
   if (start == 0.0)
     return no_result(
-        "the displacement does not pass its middle upwards twice, so that the frequency cannot be found: it "
-        "takes a "
-        "record of two periods at least");
+        "the displacement does not pass its middle upwards twice, so the frequency cannot be found: a record "
+        "of at least two periods is needed");
   const double spacing = duration / static_cast<double>(n - 1);
   constexpr double kLeastPeriods = 1.0, kMostOmega = pi / 2.0;  // four samples a period
   if (start * (duration + spacing) < 2.0 * pi * kLeastPeriods * (1.0 - 1e-6) || start * spacing > kMostOmega)
-    return no_result("the record of " + number(duration) + " s and " + std::to_string(n) + " samples is of " +
+    return no_result("the record of " + number(duration) + " s and " + std::to_string(n) + " samples has " +
                      number(start * duration / (2.0 * pi)) + " periods of " + number(start) +
-                     " rad/s: it takes one at least, and four samples in each");
-  const FourierFit x =
-      omega ? fourier_fit(time, displacement, *omega) : fourier_fit_from(time, displacement, start);
+                     " rad/s: it needs at least one, with four samples in each");
+  const FourierFit x = fourier_fit_from(time, displacement, start);
   const FourierFit F = fourier_fit(time, force, x.omega);
   Identification result;
   result.degrees_of_freedom = std::min(x.degrees_of_freedom, F.degrees_of_freedom);
-  set_estimates({x, F}, omega ? 0.0 : x.omega_variance, result);
+  set_estimates({x, F}, x.omega_variance, result);
   result.records = {record_of(traces, x, F)};
   set_intervals(result);
   check_loss(force.cwiseAbs().maxCoeff(), result);

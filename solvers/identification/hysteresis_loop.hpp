@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "solvers/identification/identification.hpp"
@@ -16,14 +15,14 @@ struct LoopTraces {
 
 // Both traces are Fourier series of one omega by least squares over the record, with as many harmonics as
 // Akaike's corrected criterion prefers; the loss is that of the series, W = pi sum_n n (force x
-// displacement)_n, so that noise, independent in both, does not add to the loop's area. omega [rad/s]: of the
-// steady vibration; absent: fitted. Estimates: energy_loss W = oint F dx [J], amplitude X [m] (half the
-// stroke), frequency [rad s-1], storage_stiffness k [N m-1] (force in phase with the displacement, of the
-// first harmonic), loss_factor = W / (2 pi U) with U = k X^2 / 2, equivalent_damping = W / oint v dx (W / (pi
-// omega X^2) of a harmonic motion) [N s m-1], equivalent_friction = W / (4 X) [N]. A force that jumps is seen
-// only between samples: its loss is known to that part of the stroke.
+// displacement)_n, so that noise, independent in both, does not add to the loop's area. omega is fitted.
+// Estimates: energy_loss W = oint F dx [J], amplitude X [m] (half the stroke), frequency omega [rad s-1],
+// storage_stiffness k [N m-1] (force in phase with the displacement, of the first harmonic), loss_factor = W
+// / (2 pi U) with U = k X^2 / 2, equivalent_damping = W / oint v dx (W / (pi omega X^2) of a harmonic motion)
+// [N s m-1], equivalent_friction = W / (4 X) [N]. A force that jumps is seen only between samples: its loss
+// is known to that part of the stroke.
 // The loss factor is not determined where the storage stiffness may be zero, as of a damper alone. A note
-// says where the loss is negative. failure: a frequency that is not given nor fitted to two periods at least.
-Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> omega);
+// says where the loss is negative. failure: a record of less than two periods.
+Identification hysteresis_loop(const LoopTraces& traces);
 
 }  // namespace frahm::identification

@@ -19,12 +19,12 @@ struct Estimate {
   // One standard deviation. Infinite: not determined; NaN: unknown (no more data than unknowns).
   double standard_error = 0.0;
   double low = 0.0, high = 0.0;  // interval of kConfidence, by Student's t; -inf, inf or NaN likewise
-  // Of the variance behind the interval, may be infinite. NaN: those of the whole Identification.
+  // For the variance behind the interval, may be infinite. NaN: those of the whole Identification.
   double degrees_of_freedom = kNone;
 };
 inline constexpr double kConfidence = 0.95;
 
-// Measured values beside those of the model: the data of a residual plot.
+// Measured values next to those of the model: the data of a residual plot.
 struct FittedSeries {
   std::string name, unit;  // of what was measured: "main_displacement", "m"
   std::vector<double> measured, fitted;
@@ -49,7 +49,7 @@ struct Identification {
   std::string failure;    // why nothing was identified, a sentence; empty: success
   bool converged = true;  // false: a fit ended before its minimum, a note says why
   std::vector<Estimate> estimates;
-  // Of the estimates, in their order. Infinite on the diagonal, NaN beside it: not determined.
+  // For the estimates, in their order. Infinite on the diagonal, NaN next to it: not determined.
   Eigen::MatrixXd covariance;
   double degrees_of_freedom = 0.0;
   int iterations = 0;  // of a fit that iterates

@@ -114,9 +114,9 @@ std::string reason_of(Eigen::LevenbergMarquardtSpace::Status status) {
     case GtolTooSmall:
       return "";
     case TooManyFunctionEvaluation:
-      return "the evaluations allowed were used up";
+      return "the allowed evaluations were used up";
     default:
-      return "the model has no derivative at the best values met";
+      return "the model has no derivative at the best values found";
   }
 }
 
@@ -154,7 +154,7 @@ void solve(const std::vector<Bounded>& bounded, const Residuals& residuals,
   if (!residuals(fit.p, fit.residuals, &fit.jacobian)) {
     fit.converged = false;
     fit.jacobian.resize(0, 0);
-    fit.reason = "the model has no value or no derivative at the best values met";
+    fit.reason = "the model has no value or no derivative at the best values found";
   }
 }
 
@@ -213,7 +213,7 @@ LeastSquaresFit least_squares(const std::vector<Unknown>& unknowns, const Residu
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     fit.p[static_cast<Eigen::Index>(i)] = bounded[i].inside(bounded[i].outside(unknowns[i].start));
   if (!residuals(fit.p, fit.residuals, nullptr)) {
-    fit.reason = "the model has no value where it starts";
+    fit.reason = "the model has no value at the start";
     return fit;
   }
   solve(bounded, residuals, options, fit);

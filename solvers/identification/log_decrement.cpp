@@ -92,12 +92,13 @@ void add_ratios(Identification& result, const std::string& suffix, double delta)
 
 Identification log_decrement(const DecayExtrema& extrema, std::optional<std::size_t> cycles) {
   constexpr std::size_t kLeast = 3;  // a cycle
-  if (cycles && *cycles == 0) return no_result("the decrement is taken over 0 cycles, it takes one at least");
+  if (cycles && *cycles == 0)
+    return no_result("the decrement is taken over 0 cycles: at least one is needed");
   if (const std::string why = unless_decaying(extrema, kLeast); !why.empty()) return no_result(why);
   const std::size_t least = cycles ? 2 * *cycles + 1 : kLeast;
   const DecayExtrema taken = used(extrema, cycles ? least : extrema.displacement.size());
   if (taken.displacement.size() < least)
-    return no_result("it takes " + std::to_string(least) + " extremes above the noise for " +
+    return no_result(std::to_string(least) + " extremes above the noise are needed for " +
                      std::to_string((least - 1) / 2) + " cycles, there are " +
                      std::to_string(taken.displacement.size()));
   const Decrements found = decrements(taken);

@@ -37,7 +37,7 @@ struct TimeRecord {
   MotionKind motion = MotionKind::free;
   std::vector<double> time;  // [s], increasing, at least two; the motion begins at the first
   std::vector<Channel> channels;
-  std::vector<MeasuredExcitation> excitation;  // of a forced record: replaces the network's own; else none
+  std::vector<MeasuredExcitation> excitation;  // of a forced record, in place of the network's own
   transient::Interpolation interpolation = transient::Interpolation::spline;  // of measured supports
 };
 

@@ -19,7 +19,7 @@ using Eigen::MatrixXd, Eigen::VectorXd;
 constexpr double kFirstPeriods[] = {2.0, 0.25};
 // A fit that misses more than this part of the measured variation has failed.
 constexpr double kNowhere = 0.5;
-// A fit that misses less than this has no better fit beside it.
+// A fit that misses less than this has no better fit next to it.
 constexpr double kExactly = 1e-9;
 constexpr LeastSquaresOptions kOnTheWay = {.tolerance = 1e-6, .most_evaluations = 50};
 constexpr double kLower = 1e-6;  // another minimum counts as lower if its sum of squares is this share less
@@ -87,8 +87,8 @@ LeastSquaresFit Minima::grown(const VectorXd& start, double periods) {
     p = fit.p;
   }
   misfit_.follow_all();
-  const bool is_nearer = residuals_(p, grown_r, nullptr) && (!residuals_(start, r, nullptr) ||
-                                                             grown_r.squaredNorm() < r.squaredNorm());
+  const bool is_nearer = residuals_(p, grown_r, nullptr) &&
+                         (!residuals_(start, r, nullptr) || grown_r.squaredNorm() < r.squaredNorm());
   if (!is_nearer) p = start;
   return descend(p, kOnTheWay);
 }
@@ -197,7 +197,7 @@ LeastSquaresFit Minima::beside(LeastSquaresFit fit) {
     if (!(best.sum_of_squares() < (1.0 - kLower) * fit.sum_of_squares())) return fit;
     fit = std::move(best);
     exact_ = !misses(fit, kExactly);
-    if (exact_) {  // what lies beside it differs by rounding
+    if (exact_) {  // what lies next to it differs by rounding
       rivals_.clear();
       return fit;
     }

@@ -16,9 +16,9 @@ class Minima {
   LeastSquaresFit from_start();
   // The nearest minimum.
   LeastSquaresFit from(const Eigen::VectorXd& p);
-  // Of a model with contacts, stops or tables also minima beside `fit`, as long as one is lower.
+  // For a model with contacts, stops or tables also minima next to `fit`, as long as one is lower.
   LeastSquaresFit beside(LeastSquaresFit fit);
-  // The unknowns at separate minima beside the last one returned that are as low to within noise.
+  // The unknowns at separate minima next to the last one returned that are as low to within noise.
   const std::vector<Eigen::VectorXd>& rivals() const { return rivals_; }
 
  private:

@@ -21,7 +21,7 @@ class Misfit {
     for (std::size_t i = 0; i < unknowns_.size(); ++i) p[static_cast<Eigen::Index>(i)] = unknowns_[i].start;
     return p;
   }
-  // Of all records: one for each channel.
+  // For all records: one for each channel.
   std::size_t series() const {
     std::size_t count = 0;
     for (const std::vector<double>& weights : weights_) count += weights.size();

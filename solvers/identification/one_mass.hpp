@@ -4,7 +4,7 @@
 
 #include "solvers/identification/identification.hpp"
 
-// Known values of one mass on a spring, beside its measured motion: they turn ratios into forces.
+// Known values of one mass on a spring, in addition to its measured motion: they turn ratios into forces.
 namespace frahm::identification {
 
 struct OneMass {

@@ -53,8 +53,8 @@ std::string gap(Samples time, Turned turned, double half_period, double step) {
     if (time[i] < from || time[i - 1] > to || missing <= std::max(0.25 * half_period, kLongStep * step))
       continue;
     return "samples are missing from " + number(time[i - 1]) + " to " + number(time[i]) +
-           " s, a good part of a half period of " + number(half_period) +
-           " s: what turns in between cannot be seen; use the part before or the part behind";
+           " s, a large part of a half period of " + number(half_period) +
+           " s: turning points in between cannot be seen; use the part before or the part after";
   }
   return "";
 }
@@ -107,7 +107,7 @@ std::string unless_whole(Samples time, Samples x, Turned turned) {
   if (std::string missing = gap(time, turned, half_period, step); !missing.empty()) return missing;
   const double of_cycle = samples_of_cycle(time, turned, half_period, step);
   if (of_cycle < kLeastSamplesOfCycle * (1.0 - 1e-9))
-    return "the record has " + number(of_cycle) + " samples a cycle, it takes " +
+    return "the record has " + number(of_cycle) + " samples per cycle, it needs " +
            number(kLeastSamplesOfCycle) + " at least";
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
   return first_of(

@@ -11,8 +11,8 @@ namespace frahm::identification {
 // standard error too small.
 inline constexpr double kLeastSamplesOfCycle = 12.0;
 
-// "" if there is no fault, else a sentence that says what and where. turned: the samples, two at least, at
-// which the trace turns; noise: standard deviation of the samples.
+// "" if there is no fault, otherwise a sentence that says what and where. turned: the samples, two at least,
+// at which the trace turns; noise: standard deviation of the samples.
 //   samples missing: a step of time above a quarter of a half period, and above twice the median step;
 //   too coarse: fewer than kLeastSamplesOfCycle a cycle;
 //   a wild sample: far from its neighbours' line, on the other side of it than they are of theirs, by more

@@ -19,7 +19,7 @@ std::string wrong(const MagnificationRows& rows) {
   for (std::size_t i = 0; i < rows.resonant.size(); ++i) {
     if (!(rows.static_displacement[i] < rows.resonant[i]))
       return "row " + std::to_string(i + 1) + " has a resonant displacement of " + number(rows.resonant[i]) +
-             " m, no larger than the static one of " + number(rows.static_displacement[i]) + " m";
+             " m, not larger than the static one of " + number(rows.static_displacement[i]) + " m";
   }
   return "";
 }
@@ -77,12 +77,13 @@ Identification resonance_magnification(const ResponseCurve& curve, double static
                                        ResponseTo shaken_by) {
   if (!(std::isfinite(static_displacement) && static_displacement > 0.0))
     return no_result("the static displacement is " + number(static_displacement) +
-                     " m, it must be positive and finite");
+                     " m: it must be positive and finite");
   const CurvePeak peak = curve_peak(curve, shaken_by);
   if (!peak.failure.empty()) return no_result(peak.failure);
   if (!(static_displacement < peak.amplitude))
     return no_result("the peak of " + number(peak.amplitude) +
-                     " m is no larger than the static displacement of " + number(static_displacement) + " m");
+                     " m is not larger than the static displacement of " + number(static_displacement) +
+                     " m");
   Identification result;
   result.estimates = {
       {.name = "peak_frequency",

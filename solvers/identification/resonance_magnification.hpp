@@ -12,7 +12,7 @@ namespace frahm::identification {
 double magnification_first_order(double static_displacement, double resonant);
 
 // zeta of the viscous mass whose peak is X_r, exactly: X_r / X_st = 1 / (2 zeta sqrt(1 - zeta^2)) to a force;
-// to a support X_st is its amplitude. 0 < X_st < X_r, else NaN.
+// to a support X_st is its amplitude. 0 < X_st < X_r, otherwise NaN.
 double magnification_exact(double static_displacement, double resonant, ResponseTo shaken_by);
 
 struct MagnificationRows {

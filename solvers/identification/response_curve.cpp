@@ -160,7 +160,7 @@ std::string wrong(const ResponseCurve& curve) {
              number(curve.omega[i - 1]) + ": frequencies must increase";
   }
   if (curve.omega.size() < 3)
-    return "it takes three places of a curve at least, there are " + std::to_string(curve.omega.size());
+    return "at least three points of a curve are needed, there are " + std::to_string(curve.omega.size());
   return "";
 }
 
@@ -191,13 +191,13 @@ CurvePeak curve_peak(const ResponseCurve& curve, ResponseTo shaken_by) {
   if (const std::string why = wrong(curve); !why.empty()) return no_peak(why);
   const Window window = window_of(curve);
   if (window.size < 3)
-    return no_peak("only " + std::to_string(window.size) + " places lie above half the peak of " +
-                   number(window.most) + ": it takes three at least");
+    return no_peak("only " + std::to_string(window.size) + " points lie above half the peak of " +
+                   number(window.most) + ": at least three are needed");
   const Parabola fit = best_fit(window, shaken_by);
   const double peak = fit.empty() ? kNone : lowest(fit);
   if (std::isnan(peak))
-    return no_peak("the curve has no peak inside: it is highest at the end of its places, " +
-                   number(curve.omega.front()) + " to " + number(curve.omega.back()) + " rad/s");
+    return no_peak("the curve has no peak inside: it is highest at its end, " + number(curve.omega.front()) +
+                   " to " + number(curve.omega.back()) + " rad/s");
   const double lower = half_power_place(fit, peak, -1), upper = half_power_place(fit, peak, 1);
   if (std::isnan(lower) || std::isnan(upper))
     return no_peak("the curve does not fall to 1/sqrt(2) of its peak on both sides between " +

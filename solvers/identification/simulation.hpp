@@ -27,7 +27,7 @@ class Simulation {
   std::string run(const Model& model, std::span<const Model> by, std::size_t samples,
                   periodic::ObservedMotion& out);
 
-  // Of the model without excitation [s].
+  // For the model without excitation [s].
   double longest_period(const Model& model) const;
 
   struct Kind;

@@ -13,7 +13,7 @@ std::string unless(const std::string& what, std::span<const double> values, Rule
   const auto wrong = std::find_if_not(values.begin(), values.end(), rule);
   if (wrong == values.end()) return "";
   return what + " " + std::to_string(wrong - values.begin() + 1) + " of " + std::to_string(values.size()) +
-         " is " + number(*wrong) + ", it must be " + must;
+         " is " + number(*wrong) + ": it must be " + must;
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ std::string number(double value);  // to six digits
 // A result that has only its failure.
 Identification no_result(std::string why);
 
-// "" if all values are finite (and > 0), else a sentence that names the fault. what: "response".
+// "" if all values are finite (and > 0), otherwise a sentence that names the fault. what: "response".
 std::string unless_finite(const std::string& what, std::span<const double> values);
 std::string unless_positive(const std::string& what, std::span<const double> values);
-// "" if all sizes equal the first, else a sentence.
+// "" if all sizes equal the first, otherwise a sentence.
 std::string unless_equal(const std::string& what, std::initializer_list<std::size_t> sizes);
 // The first that is not "".
 std::string first_of(std::initializer_list<std::string> sentences);

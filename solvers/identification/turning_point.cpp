@@ -56,7 +56,7 @@ TurningPoint parabola(const Quarters& quarters) {
   return fit;
 }
 
-// The terms of both sides, a_2 ... a_common, and those added behind the turn, b_2 ... b_jump.
+// The terms of both sides, a_2 ... a_common, and those added after the turn, b_2 ... b_jump.
 struct Degrees {
   Index common, jump;
   Index unknowns() const { return common + jump; }  // X and the phase of the turn among them
@@ -64,7 +64,7 @@ struct Degrees {
   friend bool operator==(const Degrees&, const Degrees&) = default;
 };
 
-// Columns: X, the phase of the turn, the shapes of both sides, those behind the turn.
+// Columns: X, the phase of the turn, the shapes of both sides, those after the turn.
 Eigen::MatrixXd columns(const Quarters& quarters, const TurningPoint& fit, Degrees degrees) {
   const Index common = degrees.common - 1, jump = degrees.jump - 1;
   Eigen::VectorXd size(common);

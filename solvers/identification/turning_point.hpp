@@ -24,7 +24,7 @@ struct TurningPoint {
   Eigen::Index unknowns = 0;
 };
 
-// x = X + a_2 phi_2(s) + a_3 phi_3(s) + ..., s = phase - turn; behind the turn b_2 phi_2 + ... is added:
+// x = X + a_2 phi_2(s) + a_3 phi_3(s) + ..., s = phase - turn; after the turn b_2 phi_2 + ... is added:
 // friction makes the acceleration and its derivatives jump there. The shapes are those of a mass on a spring
 // with a damper: phi_2 = 1 - exp(-delta s) (cos s + delta sin s), then phi_k' = phi_{k-1}. So a_2 and b_2
 // suffice for a mass with friction on a known damper; a_3 corrects an error of delta, a_4 one of the

@@ -21,7 +21,7 @@ std::string_view coordinate_unit(const Network& network, std::size_t coordinate,
 // x = w^T q + p^T y of a coordinate: of a mass its own displacement.
 Incidence coordinate_incidence(const Network& network, std::size_t coordinate);
 
-// The same of the signals alone, in their order.
+// The same for the signals alone, in their order.
 std::vector<Incidence> signal_incidences(const Network& network);
 
 }  // namespace frahm::mechanics

@@ -119,7 +119,7 @@ bool ElementKind::is_inertia_alone() const {
          stop == nullptr;
 }
 
-std::size_t told_by(const Network& network, std::size_t e) {
+std::size_t reported_by(const Network& network, std::size_t e) {
   while (network.elements[e].parts == 0) --e;
   return e;
 }

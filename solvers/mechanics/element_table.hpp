@@ -106,13 +106,13 @@ inline bool has_contact(const Element& element) {
   return kind_of(element).law != nullptr;
 }
 
-// Whether it has one that is told by itself; the sliders of an iwan element are told together.
+// Whether it has one that is reported by itself; the sliders of an iwan element are reported together.
 inline bool has_own_contact(const Element& element) {
   return has_contact(element) && element.parts == 1;
 }
 
-// The element by which element e is told: the first of an iwan element's parts, or itself.
-std::size_t told_by(const Network& network, std::size_t e);
+// The element by which element e is reported: the first of an iwan element's parts, or itself.
+std::size_t reported_by(const Network& network, std::size_t e);
 
 // The first element whose values depend on the frequency (hysteretic), or null.
 const Element* frequency_dependent_element(const Network& network);
@@ -123,7 +123,7 @@ const Element* element_unfit_for_noise(const Network& network);
 // The second value of the element; 0 if it has none.
 double second_value(const NetworkValues& values, std::size_t element);
 
-// The limit of a contact's force at rest, where the element has one of its own; else 0.
+// The limit of a contact's force at rest, where the element has one of its own; otherwise 0.
 double static_force(const Element& element, const NetworkValues& values, std::size_t index);
 
 }  // namespace frahm::mechanics

@@ -33,13 +33,13 @@ void check_value(const ValueKey& key, const Element& element, double value) {
 // A pivot of Cholesky's decomposition below this part of the largest is only rounding away from zero.
 constexpr double kSmallestPivot = 1e-13;
 
-// Tells a node whose own entry is too small beside that of another.
+// Refuses a node whose own entry is too small next to that of another.
 void refuse_lost_entry(const Eigen::MatrixXd& matrix, const std::string& name, const Network& network) {
   Eigen::Index least = 0, most = 0;
   const double smallest = matrix.diagonal().minCoeff(&least), largest = matrix.diagonal().maxCoeff(&most);
   if (!(smallest > 0.0) || std::sqrt(smallest) > kSmallestPivot * std::sqrt(largest)) return;
   std::ostringstream rule;
-  rule << "is lost in rounding beside " << largest << " at '"
+  rule << "is lost in rounding next to " << largest << " at '"
        << network.masses[static_cast<std::size_t>(most)] << "'";
   refuse("the " + name + " at '" + network.masses[static_cast<std::size_t>(least)] + "'", smallest,
          rule.str());
@@ -284,7 +284,7 @@ void Assembly::add_crank(const Excitation& excitation, const ExcitationValue& va
   if (!(std::isfinite(rod) && rod > radius)) refuse("the crank's rod", rod, "must be longer than the crank");
   const int even_orders = excitation.taylor_order == 1 ? 0 : excitation.even_orders;
   if (excitation.taylor_order == 0 && radius > 0.0 && crank_orders_needed(radius / rod) > even_orders) {
-    refuse("crank over rod", radius / rod, "is more than the orders kept serve");
+    refuse("crank over rod", radius / rod, "is more than the stored orders allow");
   }
   const auto node = static_cast<Eigen::Index>(excitation.node);
   const auto place = [&](int order) {

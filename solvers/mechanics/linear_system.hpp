@@ -32,12 +32,12 @@ Incidence incidence(const Network& network, const Element& element);
 struct SupportForce {
   Eigen::VectorXd counted;  // 1 of a mass on which a force counts (a torque, where the ground takes those), 0
   Eigen::VectorXd c;        // NaN where the motion of the masses does not tell what the supports take
-  Eigen::VectorXd excess;   // c^T w_e + s_e of each element, of an inerter; else 0
+  Eigen::VectorXd excess;   // c^T w_e + s_e of each element, of an inerter; otherwise 0
 };
 
 // The part of an element with a law in a contact. Elements of a law that merges, along the same direction,
 // act as one contact, whose limits are the sums of theirs; each carries a share of its force, F_j / sum F
-// while it slides and the same of the static limits at rest.
+// while it slides and the same for the static limits at rest.
 struct ContactShare {
   std::size_t contact = 0;  // index of the contact
   double orientation = 1;   // +1 if the element points as the contact does, -1 otherwise

@@ -81,7 +81,7 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
   assembly.set_values(values, system);
   const Eigen::Index n = system.masses();
   // Motions while every contact sticks: displacements B eta with W^T B = 0 of the held contacts. The springs
-  // behind the other contacts act.
+  // after the other contacts act.
   Eigen::MatrixXd K = system.K;
   std::vector<Eigen::Index> held;
   for (Eigen::Index j = 0; all_stuck && j < system.contacts(); ++j) {

@@ -71,7 +71,7 @@ struct BendPlace {
   const laws::Bend* law = nullptr;
 };
 
-// Of a coulomb element. Two are smooth: arctan, F (2/pi) arctan(slope v), and stribeck, a curve of the force
+// For a coulomb element. Two are smooth: arctan, F (2/pi) arctan(slope v), and stribeck, a curve of the force
 // over the speed in place of F. Their numbers are NetworkValues::smooth.
 enum class FrictionLaw { exact, arctan, stribeck };
 
@@ -90,8 +90,8 @@ struct Element {
   std::vector<BendPlace> bends;
   bool has_static_force = false;  // of a coulomb element that follows the exact law: it is given one
   bool has_cubic = false;         // of a spring: it adds cubic u^3
-  // Of an iwan element: how many jenkins elements in parallel it is, from this one on, the first, by which
-  // all are told as one; 0 of those that follow.
+  // For an iwan element: how many jenkins elements in parallel it is, from this one on, the first, by which
+  // all are reported as one; 0 of those that follow.
   std::size_t parts = 1;
   bool rotational = false;     // u is an angle
   bool twists_ground = false;  // its factor there is of an angle: what the ground takes of it is a torque
@@ -126,7 +126,7 @@ struct Signal {
   bool rotational = false;  // it is an angle
 };
 
-// Damping of the structure as a whole, beside that of elements (structural_damping.hpp).
+// Damping of the structure as a whole, in addition to that of elements (structural_damping.hpp).
 enum class DampingModel {
   none,
   modal,     // a ratio for each natural mode, in the order of their frequencies

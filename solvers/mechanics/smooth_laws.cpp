@@ -19,7 +19,7 @@ void require(bool is_met, const Element& element, const char* key, double value,
 void check_curve(const Element& element, const std::vector<CurvePoint>& curve) {
   const char* table = "a point of the table";
   const auto count = static_cast<double>(curve.size());
-  require(curve.size() >= 2, element, "points of the table", count, "must be two at least");
+  require(curve.size() >= 2, element, "points of the table", count, "must be at least two");
   require(curve.front() == CurvePoint{}, element, table, curve.front().force, "the first must be [0, 0]");
   for (std::size_t i = 1; i < curve.size(); ++i) {
     const auto [speed, force] = curve[i];

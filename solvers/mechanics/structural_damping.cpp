@@ -45,9 +45,9 @@ void check_determined(const std::vector<double>& ratios, const Eigen::VectorXd& 
     const double own = ratio_of(ratios, i), next = ratio_of(ratios, i + 1);
     if (own == next || omega[i + 1] - omega[i] > kSame * omega[i + 1]) continue;
     std::ostringstream message;
-    message << "modes " << i + 1 << " and " << i + 2 << " have one frequency, " << omega[i]
+    message << "modes " << i + 1 << " and " << i + 2 << " have the same frequency, " << omega[i]
             << " rad/s, but the damping ratios " << own << " and " << next
-            << ": which motion has which is not determined";
+            << ": it is not determined which motion has which ratio";
     throw MechanicsError(message.str());
   }
 }
@@ -124,7 +124,7 @@ void check_structural_damping(const Network& network, const std::vector<double>&
   const bool is_modal = network.damping == DampingModel::modal;
   const std::size_t most = is_modal ? network.masses.size() : 2, least = is_modal ? 1 : 2;
   if (values.size() < least || values.size() > most) {
-    throw MechanicsError(is_modal ? "modal damping takes 1 ratio or up to one for each mass"
+    throw MechanicsError(is_modal ? "modal damping takes one ratio, or up to one for each mass"
                                   : "rayleigh damping takes 2 coefficients");
   }
   for (const double value : values) {

@@ -35,7 +35,7 @@ void check_structural_damping(const Network& network, const std::vector<double>&
 void set_structural_damping(const Assembly& assembly, const std::vector<double>& values,
                             LinearSystem& system);
 
-// The same of the derivative of `system` along `direction`.
+// The same for the derivative of `system` along `direction`.
 void differentiate_structural_damping(const Assembly& assembly, const NetworkValues& values,
                                       const NetworkValues& direction, const LinearSystem& system,
                                       LinearSystem& derivative);

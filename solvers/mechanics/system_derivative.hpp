@@ -14,7 +14,7 @@ namespace frahm::mechanics {
 void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,
                    const LinearSystem& system, LinearSystem& derivative);
 
-// The same of masses, elements and the structure's damping alone: nothing of the excitation is touched.
+// The same for masses, elements and the structure's damping alone: nothing of the excitation is touched.
 void differentiate_matrices(const Assembly& assembly, const NetworkValues& values,
                             const NetworkValues& direction, const LinearSystem& system,
                             LinearSystem& derivative);

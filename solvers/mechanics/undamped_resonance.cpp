@@ -68,8 +68,8 @@ bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::Vecto
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) {
   std::vector<UndampedMode> result;
   const Eigen::Index n = system.masses();
-  // A strained Maxwell element dissipates, as its damper would. A slider behind a spring dissipates by its
-  // friction.
+  // A strained Maxwell element dissipates, as its damper would. A slider in series with a spring dissipates
+  // by its friction.
   const Eigen::VectorXd dampers =
       (system.internal_rate.array() > 0.0)
           .select(system.internal_stiffness.cwiseQuotient(system.internal_rate), 0.0);

@@ -2,8 +2,8 @@
 
 #include "solvers/nonstop/forms.hpp"
 
-// The extremes of the traces, segment after segment: the sweep keeps a segment's steps; once they are proved
-// stationary points are solved, and both limits where the friction turns.
+// The extremes of the traces, segment after segment: the passage keeps a segment's steps; once they are
+// proved stationary points are solved, and both limits where the friction turns.
 namespace {
 
 template <class W>
@@ -50,7 +50,7 @@ FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Mask reached, 
   best.reached = select(where & reached & (value > best.reached), value, best.reached);
 }
 
-// A trace within a step of the sweep.
+// A trace within a step of the passage.
 template <class W>
 struct TraceStep {
   const W& w;
@@ -126,7 +126,7 @@ FRAHM_INLINE Lanes side_phase(const TraceStep<W>& trace, Lanes phase) {
 }
 
 // Searches a part for values above the best, in the lanes where there may be any: Bernstein coefficients
-// bound it. Where the cubic has a maximum within, that of the trace is solved and the parts beside it are
+// bound it. Where the cubic has a maximum within, that of the trace is solved and the parts next to it are
 // looked at again; where it has none, the part is halved. Returns the lanes in which neither ends.
 template <class W>
 inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among, int depth, Extreme& best) {
@@ -145,7 +145,7 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   const Lanes under = q * q - 3.0 * r * d0, root = sqrt(max(under, lanes(0.0)));
   const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
   // A release begins with a slope of zero, which is no extreme that is reached, and which the cubic, wrong by
-  // its error, crosses beside it: the part there is cut short until such a crossing is out of it.
+  // its error, crosses next to it: the part there is cut short until such a crossing is out of it.
   const bool is_release = trace.w.is_released && trace.step == 0;
   const Lanes cut = is_release ? select(part.from > 0.0, lanes(0.5), 0.125) : lanes(0.5);
   const Lanes first = is_release ? select(part.from > 0.0, lanes(0.0), 0.125) : lanes(0.0);
@@ -219,9 +219,9 @@ inline void search_segment(W& w, Mask among) {
 
 // In the lanes told.
 template <class W>
-inline void tell_extremes(const W& w, Mask told) {
+inline void tell_extremes(const W& w, Mask mask) {
   for (int t = 0; t < w.shape.traces; ++t) {
-    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
+    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(mask, x, view(array)[t]); };
     const Extreme &most = w.extreme[2 * t], &least = w.extreme[2 * t + 1];
     tell(w.pack.most, most.value);
     tell(w.pack.most_at, most.phase);

@@ -23,7 +23,7 @@ const Kernel& fastest_kernel();     // that runs here
 
 // Points with more reversals, or that take more steps, are not solved.
 inline constexpr int kMostReversals = 32;
-// Of all segments of the span together: for a system of so many contacts.
+// For all segments of the span together: for a system of so many contacts.
 constexpr int most_steps(int contacts) {
   const int steps = 64 * contacts;
   return steps < 256 ? 256 : steps > 1024 ? 1024 : steps;

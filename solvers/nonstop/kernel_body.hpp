@@ -7,11 +7,11 @@ namespace {
 
 // The results of the lanes told.
 template <class W>
-inline void tell(const W& w, const Passage& passage, Mask told) {
+inline void tell(const W& w, const Passage& passage, Mask mask) {
   const double omega_spans = w.shape.half_period ? 2.0 : 1.0;
   const Lanes seconds = omega_spans / *view(w.pack.omega);
   const auto tell_one = [&](double* array, int i, Lanes x) {
-    view(array)[i] = select(told, x, view(array)[i]);
+    view(array)[i] = select(mask, x, view(array)[i]);
   };
   tell_one(w.pack.newton_iterations, 0, w.iterations);
   tell_one(w.pack.reversals, 0, lanes(w.reversals));
@@ -28,12 +28,12 @@ inline void tell(const W& w, const Passage& passage, Mask told) {
     tell_one(w.pack.contact_reversals, j, omega_spans * w.contact_reversals[j]);
   }
   tell_one(w.pack.parts, 0, passage.parts);
-  tell_extremes(w, told);
+  tell_extremes(w, mask);
   Lanes sound = lanes(0.0);  // not a number, if anything told is none
   for (int p = 0; p < w.shape.products; ++p) sound += 0.0 * view(w.pack.integral)[p];
   for (int p = 0; p < w.shape.powers; ++p) sound += 0.0 * view(w.pack.work)[p];
   for (int t = 0; t < w.shape.traces; ++t) sound += 0.0 * (view(w.pack.most)[t] + view(w.pack.least)[t]);
-  *view(w.pack.is_found) = select(told & ~w.unsure & (sound == 0.0), lanes(1.0), *view(w.pack.is_found));
+  *view(w.pack.is_found) = select(mask & ~w.unsure & (sound == 0.0), lanes(1.0), *view(w.pack.is_found));
 }
 
 // Lanes whose proof failed by so little that its steps may be to blame.
@@ -45,7 +45,7 @@ template <class W>
 inline void solve_group(W& w, Mask group) {
   constexpr double kFine = 4.0;
   sort_reversals(w);
-  Passage passage = sweep(w, group, 1.0);
+  Passage passage = passage_along(w, group, 1.0);
   Mask again = group & ~passage.proved & is_close(passage);
   for (int trial = 0; trial < 2; ++trial) {
     if (any(passage.proved)) {
@@ -53,7 +53,7 @@ inline void solve_group(W& w, Mask group) {
       if (w.shape.is_judged) judge(w, passage.proved);
     }
     if (trial == 1 || !any(again)) return;
-    passage = sweep(w, again, kFine);
+    passage = passage_along(w, again, kFine);
   }
 }
 
@@ -70,7 +70,7 @@ inline void solve_with_stops(W& w, Mask group) {
     *view(w.pack.slides) = select(passage.proved, stop.theta * (1.0 / kPi), *view(w.pack.slides));
     if (w.shape.is_judged) judge_one_stop(w, stop, passage.proved);
   };
-  const Passage at_rest = sweep_stuck(w, held, group);
+  const Passage at_rest = passage_stuck(w, held, group);
   finish(at_rest, held);
   group = group & ~at_rest.proved;
   for (const int intervals : {kCoarseGrid, kFineGrid}) {
@@ -80,7 +80,7 @@ inline void solve_with_stops(W& w, Mask group) {
     w.reversals = 2;  // a stop and a release
     Mask sought = stop.found;
     for (const double fineness : {1.0, kFine}) {
-      Passage passage = sweep_one_stop(w, stop, fineness);
+      Passage passage = passage_with_one_stop(w, stop, fineness);
       passage.proved = passage.proved & sought;
       finish(passage, stop);
       group = group & ~passage.proved;
@@ -140,5 +140,16 @@ namespace frahm::periodic::nonstop {
 void FRAHM_NAME(solve_, FRAHM_KERNEL)(const Pack& pack, double* workspace) {
   solve_by_size(pack, workspace);
 }
+
+// The same for all, from the one that runs wherever this build does.
+#if defined(FRAHM_LEAST_KERNEL)
+std::size_t workspace_size(const Shape& shape) {
+  Pack pack;
+  pack.shape = &shape;
+  Arena arena(nullptr);
+  const Work<AnyCounts> work(pack, arena);
+  return arena.used();
+}
+#endif
 
 }  // namespace frahm::periodic::nonstop

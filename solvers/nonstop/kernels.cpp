@@ -1,34 +1,46 @@
 #include <algorithm>
-#include <array>
 
 #include "solvers/nonstop/kernel.hpp"
 
 namespace frahm::periodic::nonstop {
 
 #if defined(__x86_64__)
-Solve solve_portable, solve_v2, solve_v3, solve_v4;
+#if !defined(FRAHM_KERNELS_FROM_V3)
+Solve solve_portable, solve_v2;
+#endif
+Solve solve_v3, solve_v4;
+
+namespace {
+
+bool has_v3() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+}
+
+bool has_v4() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+}
+
+}  // namespace
 
 std::span<const Kernel> kernels() {
   __builtin_cpu_init();
-  static const std::array<Kernel, 4> all{
-      Kernel{"portable", true, solve_portable},
-      Kernel{"x86-64-v2", __builtin_cpu_supports("sse4.2") != 0, solve_v2},
-      Kernel{
-          "x86-64-v3",
-          __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"),
-          solve_v3},
-      Kernel{"x86-64-v4",
-             __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                 __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                 __builtin_cpu_supports("avx512vl"),
-             solve_v4}};
+  static const Kernel all[] = {
+#if !defined(FRAHM_KERNELS_FROM_V3)
+    {"portable", true, solve_portable},
+    {"x86-64-v2", __builtin_cpu_supports("sse4.2") != 0, solve_v2},
+#endif
+    {"x86-64-v3", has_v3(), solve_v3},
+    {"x86-64-v4", has_v4(), solve_v4}
+  };
   return all;
 }
 #else
 Solve solve_portable;
 
 std::span<const Kernel> kernels() {
-  static const std::array<Kernel, 1> all{Kernel{"portable", true, solve_portable}};
+  static const Kernel all[] = {{"portable", true, solve_portable}};
   return all;
 }
 #endif

@@ -41,36 +41,36 @@ void NonstopSolver::measure(int lane) {
   m.system = &system;
   m.period = 2.0 * std::numbers::pi / system.omega;
   m.half_period = shape_.half_period;
-  m.status = told(pack_.margin, 0, lane) < kGrazing ? Status::grazing : Status::ok;
-  m.newton_iterations = static_cast<int>(told(pack_.newton_iterations, 0, lane));
+  m.status = value_in_lane(pack_.margin, 0, lane) < kGrazing ? Status::grazing : Status::ok;
+  m.newton_iterations = static_cast<int>(value_in_lane(pack_.newton_iterations, 0, lane));
   m.events = 0;
   m.extremes.resize(request_.traces.size());
   for (std::size_t t = 0; t < m.extremes.size(); ++t) {
     Extremes& x = m.extremes[t];
-    x.most = told(pack_.most, t, lane);
-    x.least = told(pack_.least, t, lane);
+    x.most = value_in_lane(pack_.most, t, lane);
+    x.least = value_in_lane(pack_.least, t, lane);
     if (!shape_.asks_phases) continue;
-    x.most_phase = whole_turns_removed(told(pack_.most_at, t, lane));
+    x.most_phase = whole_turns_removed(value_in_lane(pack_.most_at, t, lane));
     x.least_phase = whole_turns_removed(shape_.half_period ? x.most_phase + std::numbers::pi
-                                                           : told(pack_.least_at, t, lane));
+                                                           : value_in_lane(pack_.least_at, t, lane));
   }
   m.histories.resize(size(shape_.contacts));
   for (std::size_t j = 0; j < m.histories.size(); ++j) {
     m.histories[j] = {};
-    m.histories[j].reversals = static_cast<int>(told(pack_.contact_reversals, j, lane));
+    m.histories[j].reversals = static_cast<int>(value_in_lane(pack_.contact_reversals, j, lane));
     m.events += m.histories[j].reversals;
-    if (const double slides = told(pack_.slides, 0, lane); slides < 1.0) {
+    if (const double slides = value_in_lane(pack_.slides, 0, lane); slides < 1.0) {
       m.histories[j].stops = m.histories[j].reversals;  // one at each, or none where nothing moves
       m.histories[j].stuck_fraction = 1.0 - slides;
       m.events += m.histories[j].stops;  // with a release each
     }
-    m.histories[j].sliding_distance = told(pack_.slid, j, lane);
+    m.histories[j].sliding_distance = value_in_lane(pack_.slid, j, lane);
   }
   if (shape_.is_judged) {
     m.static_norm = static_norm(system);
-    m.state_norm = told(pack_.state_norm, 0, lane);
-    m.residual = told(pack_.residual, 0, lane) / std::max(m.state_norm, m.static_norm);
-    m.floquet_radius = told(pack_.multiplier, 0, lane);
+    m.state_norm = value_in_lane(pack_.state_norm, 0, lane);
+    m.residual = value_in_lane(pack_.residual, 0, lane) / std::max(m.state_norm, m.static_norm);
+    m.floquet_radius = value_in_lane(pack_.multiplier, 0, lane);
     m.error_bound = error_bound(lane);
   }
   if (request_.needs.integrals) {
@@ -80,7 +80,7 @@ void NonstopSolver::measure(int lane) {
         first + oscillators + static_cast<Eigen::Index>(assembly_.network().signals.size());
     m.gram.setZero(rows, rows);
     for (std::size_t p = 0; p < entries_.size(); ++p) {
-      const double integral = told(pack_.integral, p, lane);
+      const double integral = value_in_lane(pack_.integral, p, lane);
       m.gram(entries_[p].row, entries_[p].column) = m.gram(entries_[p].column, entries_[p].row) = integral;
     }
     for (Eigen::Index k = 0; k < oscillators; ++k)
@@ -89,14 +89,14 @@ void NonstopSolver::measure(int lane) {
   }
   m.input = m.input_size = 0.0;
   for (std::size_t p = 0; p < powers_.size(); ++p) {
-    m.input += told(pack_.work, p, lane);
-    m.input_size += told(pack_.work_size, p, lane);
+    m.input += value_in_lane(pack_.work, p, lane);
+    m.input_size += value_in_lane(pack_.work_size, p, lane);
   }
   if (!request_.needs.energies) return;
   value::add_up_friction(m);
   m.structural_loss = 0.0;
   for (std::size_t p = entries_.size(); p < products_.size(); ++p)
-    m.structural_loss += told(pack_.integral, p, lane);
+    m.structural_loss += value_in_lane(pack_.integral, p, lane);
   value::add_up_losses(m);
 }
 
@@ -124,15 +124,16 @@ void NonstopSolver::set_motion(const mechanics::LinearSystem& system) {
 // way of the modes.
 double NonstopSolver::error_bound(int lane) const {
   const mechanics::LinearSystem& system = systems_[size(lane)];
-  const double contraction = told(pack_.contraction, 0, lane), margin = told(pack_.margin, 0, lane);
-  const double scale = std::max(told(pack_.state_norm, 0, lane), measured_.static_norm);
+  const double contraction = value_in_lane(pack_.contraction, 0, lane),
+               margin = value_in_lane(pack_.margin, 0, lane);
+  const double scale = std::max(value_in_lane(pack_.state_norm, 0, lane), measured_.static_norm);
   const double friction = system.limit.dot(friction_norm_);
   const double radians = fastest_rate_ * measured_.period;
-  const double operations =
-      modes_.condition * modes_.condition * (16.0 + 2.0 * radians) + 16.0 * told(pack_.reversals, 0, lane);
-  const double rounding =
-      std::numeric_limits<double>::epsilon() * operations * (scale + friction + told(pack_.parts, 0, lane));
-  const double ball = (told(pack_.residual, 0, lane) + rounding) / (1.0 - contraction);
+  const double operations = modes_.condition * modes_.condition * (16.0 + 2.0 * radians) +
+                            16.0 * value_in_lane(pack_.reversals, 0, lane);
+  const double rounding = std::numeric_limits<double>::epsilon() * operations *
+                          (scale + friction + value_in_lane(pack_.parts, 0, lane));
+  const double ball = (value_in_lane(pack_.residual, 0, lane) + rounding) / (1.0 - contraction);
   const bool holds = contraction < 1.0 && ball < 0.1 * margin * scale;
   return holds ? ball * displacement_of_energy_ : kNone;
 }

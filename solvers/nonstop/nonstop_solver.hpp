@@ -36,11 +36,11 @@ class NonstopSolver {
 
   // Solves the points in the first `count` lanes.
   void solve(int count);
-  bool is_found(int lane) const { return told(pack_.is_found, 0, lane) != 0.0; }
-  // Of a point that is found: out[i] is quantity i. False if its energies do not balance; it then is not
+  bool is_found(int lane) const { return value_in_lane(pack_.is_found, 0, lane) != 0.0; }
+  // For a point that is found: out[i] is quantity i. False if its energies do not balance; it then is not
   // found.
   bool quantities(int lane, std::span<double> out);
-  // Of the point whose quantities were taken last.
+  // For the point whose quantities were taken last.
   const Measured& measured() const { return measured_; }
 
   void use(const Kernel& kernel) { kernel_ = &kernel; }  // another than the fastest, for tests
@@ -63,7 +63,7 @@ class NonstopSolver {
 
   bool asks(Measure measure) const;
   static std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
-  static double told(const double* array, std::size_t index, int lane) {
+  static double value_in_lane(const double* array, std::size_t index, int lane) {
     return array[index * kLanes + static_cast<std::size_t>(lane)];
   }
   static void give(double* array, std::size_t index, int lane, double value) {
@@ -81,7 +81,7 @@ class NonstopSolver {
   SlidingModes modes_;
   mechanics::NetworkValues modes_of_;  // the values that the modes are of, once has_modes_
   bool has_modes_ = false;
-  bool needs_forces_ = false;    // some quantity follows from the forces that drive, beside the motion
+  bool needs_forces_ = false;    // some quantity follows from the forces that drive, next to the motion
   std::vector<Form> forms_;      // in the order of Shape
   std::vector<char> is_direct_;  // of each form: whether it has parts outside the state
   std::vector<std::size_t> forms_with_friction_;  // of single elements

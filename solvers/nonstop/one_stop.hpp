@@ -252,7 +252,7 @@ inline void take_step(W& w, Mask taken, Lanes phase, Lanes h) {
 
 // The slide: the velocity stays positive between two zeros.
 template <class W>
-inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passage& passage) {
+inline void pass_slide(W& w, const OneStop& stop, double steps_a_radian, Passage& passage) {
   w.direction[0] = lanes(1.0);
   set_levels(w);
   w.rests = false;
@@ -291,7 +291,7 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
 // The rest: the force that the mass asks of the contact stays within its limit, until it reaches it at the
 // end.
 template <class W>
-inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage& passage) {
+inline void pass_rest(W& w, const OneStop& stop, double steps_a_radian, Passage& passage) {
   const Lanes length = kPi - stop.theta, start = stop.release + stop.theta;
   const Lanes count = max(floor(length * steps_a_radian) + 1.0, lanes(2.0)), h = length / count;
   set_rest_forms(w, stop);
@@ -324,13 +324,13 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
 // Nothing moves: the forcing stays below the limit by itself, or just reaches it, where a tie goes to
 // sticking. In the lanes where it does.
 template <class W>
-inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
+inline Passage passage_stuck(W& w, const OneStop& held, Mask group) {
   constexpr double kTie = 1e-12;  // as events/tolerances.hpp has it
   const Lanes room = (held.friction - modulus(held.drive)) / held.friction;
   const Mask holds = group & ((room > kSafe) | (abs(room) < lanes(kTie)));
   Passage passage{holds, lanes(1.0), room, lanes(0.0), lanes(0.0)};
   clear_measures(w);
-  if (any(holds)) sweep_rest(w, held, 1.0 / 0.75, passage);
+  if (any(holds)) pass_rest(w, held, 1.0 / 0.75, passage);
   search_segment(w, holds);
   passage.between = room;
   passage.proved = holds;
@@ -338,16 +338,16 @@ inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
 }
 
 template <class W>
-inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
+inline Passage passage_with_one_stop(W& w, const OneStop& stop, double fineness) {
   constexpr double kClosed = 1e-9;
   const double steps_a_radian = fineness / 0.75;
   Passage passage{stop.found, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
   passage.proved = passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) &
                    (stop.rest > 0.0) & (abs(stop.missed) < kClosed * stop.rest);
   clear_measures(w);
-  sweep_slide(w, stop, steps_a_radian, passage);
+  pass_slide(w, stop, steps_a_radian, passage);
   search_segment(w, passage.stands());
-  if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
+  if (any(passage.proved)) pass_rest(w, stop, steps_a_radian, passage);
   search_segment(w, passage.stands());
   w.slid[0] = 2.0 * stop.rest;
   w.contact_reversals[0] = lanes(1.0);
@@ -364,8 +364,8 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
 // Norm of the state and multiplier amid the rest: a shift of the position there grows by what the slide
 // leaves of it.
 template <class W>
-inline void judge_one_stop(W& w, const OneStop& stop, Mask told) {
-  const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
+inline void judge_one_stop(W& w, const OneStop& stop, Mask mask) {
+  const auto tell = [&](double* array, Lanes x) { *view(array) = select(mask, x, *view(array)); };
   Complex zeta[2], left[2];
   set_coordinates(w, stop.unit, zeta);
   for (int s = 0; s < w.modes; ++s)

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kSafe = 1e-7;  // a margin that is certainly not grazing
 
-// What the sweep finds of all lanes.
+// What the passage finds of all lanes.
 struct Passage {
   Mask proved;                    // nothing sticks
   Lanes at_reversals;             // least relative acceleration there, on either side
@@ -47,9 +47,9 @@ FRAHM_INLINE Lanes least_coefficient(Lanes v0, Lanes a0, Lanes v1, Lanes a1, Lan
   return select(ends, least, min(least, v1));
 }
 
-// A coefficient of a velocity, relative to its size, that is small: beside the contact's own reversal it is
-// as small as that is near, and so is told relative to the distance [rad]. What may be rounding is left out;
-// the velocity is the sum of modes that were multiplied step by step.
+// A coefficient of a velocity, relative to its size, that is small: next to the contact's own reversal it is
+// as small as that is near, and so is reported relative to the distance [rad]. What may be rounding is left
+// out; the velocity is the sum of modes that were multiplied step by step.
 template <class W>
 inline Lanes beside_reversal(const W& w, const Segment& segment, int k, int j, Lanes least) {
   constexpr double kRounding = 1e-12;

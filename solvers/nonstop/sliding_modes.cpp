@@ -35,7 +35,7 @@ Eigen::MatrixXd energy_root(const mechanics::LinearSystem& system) {
   return R;
 }
 
-// sigma_max / sigma_min, by the eigenvalues of A^T A, and so to some 1e7 at most; infinite beyond.
+// sigma_max / sigma_min, by the eigenvalues of A^T A, and so to about 1e7 at most; infinite beyond.
 double condition_of(const Eigen::MatrixXd& A) {
   const Eigen::VectorXd squares = algebra::symmetric_modes(A.transpose() * A).values;
   const double most = squares[squares.size() - 1], least = squares[0];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/nonstop/sweep.hpp"
+#include "solvers/nonstop/passage.hpp"
 
 // The state at a section amid the first segment, and the derivative of the map from there: flows of the
 // modes, and at each reversal a change of rank one (saltation). Its largest multiplier and its norm in
@@ -219,9 +219,9 @@ inline Lanes norm_of_state(W& w) {
 
 // Tells the norm of the state, multipliers and contraction, in the lanes told.
 template <class W>
-inline void judge(W& w, Mask told) {
+inline void judge(W& w, Mask mask) {
   const int D = w.states;
-  const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
+  const auto tell = [&](double* array, Lanes x) { *view(array) = select(mask, x, *view(array)); };
   const Lanes section = (w.reversals > 0 ? w.sorted_phase[0] : lanes(0.0)) + 0.5 * w.segment_length[0];
   find_state(w, section);
   tell(w.pack.state_norm, norm_of_state(w));

@@ -78,7 +78,7 @@ struct Work : C {
   const double span;  // the period, or half of it
   const double sign;  // of the motion after it
 
-  // Of the linear part.
+  // For the linear part.
   Complex* rate;                // [modes] lambda / omega
   Lanes* rate_size;             // [modes] its size
   Complex* over_span;           // [modes] exp(rate span)
@@ -116,7 +116,7 @@ struct Work : C {
   Lanes* defect;    // [reversals]
   Lanes* jacobian;  // [reversals][reversals]
 
-  // The sweep.
+  // The passage.
   Complex* zeta;  // [modes] what the reversals leave of the modal coordinates
   Complex* next_zeta;
   Complex* first_zeta;
@@ -139,7 +139,7 @@ struct Work : C {
   Lanes* error;                     // [contacts] of the middle coefficient of the proof
   Lanes *first_sign, *last_sign;    // [contacts] of the velocity without friction, 0 before it moves
 
-  // What the sweep of a segment leaves for the search of extremes.
+  // What the passage of a segment leaves for the search of extremes.
   Complex* zeta_at;          // [steps][modes]
   Complex* osc_at;           // [steps][orders]
   Lanes* phase_at;           // [steps]
@@ -151,7 +151,7 @@ struct Work : C {
   Extreme* extreme;          // [traces] of the largest, and of the opposite's
   Mask unsure;               // a larger one may be missed
 
-  // Of a mass at rest, one contact and one order (one_stop.hpp).
+  // For a mass at rest, one contact and one order (one_stop.hpp).
   bool rests = false;
   Complex* direct;       // [forms][orders] the part of the phasor that does not go through the state
   Complex* rest_phasor;  // [forms]
@@ -168,7 +168,7 @@ struct Work : C {
   Lanes* turned_push;     // [states]
   Lanes* velocity_of;     // [states]
 
-  // Of the contacts, whose slopes nobody needs; and if their strokes are not asked for, nor do they.
+  // For the contacts, whose slopes nobody needs; and if their strokes are not asked for, nor do they.
   bool is_displacement(int form) const { return form >= contacts && form < 2 * contacts; }
   bool is_unused(int form) const {
     return !shape.asks_strokes && !shape.may_stop_once && is_displacement(form);

@@ -39,7 +39,7 @@ double critical_friction(double r, double zeta);
 
 struct ClosedForm {
   double amplitude;  // max|x| [P/k]
-  double peak_lag;   // phase lag of the maximum of x behind that of the force, in [0, 2 pi)
+  double peak_lag;   // phase lag of the maximum of x after that of the force, in [0, 2 pi)
   bool valid() const { return amplitude == amplitude; }
 };
 

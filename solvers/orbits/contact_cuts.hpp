@@ -7,7 +7,7 @@
 namespace frahm::periodic {
 
 // The cuts through contacts at rest with the directions W (n x m, any rank): all c (m), but for their size,
-// with c = W^T n for some n and no smaller set of contacts. The motion alone tells the force
+// with c = W^T n for some n and no smaller set of contacts. The motion alone gives the force
 //   sum c_j lambda_j = n^T W lambda
 // however a loop of contacts shares it, and no more than  sum |c_j| F_j  crosses a cut. Forces within the
 // limits F exist where every cut carries no more than that: the set W lambda, |lambda_j| <= F_j, is a

@@ -6,10 +6,10 @@
 
 namespace frahm::periodic {
 
-// The inverse of B = 1 - dg/dz of a large system, where computing B anew takes as long as some passages: kept
-// from step to step and from orbit to orbit, and corrected by what each step shows. Of all corrections that
-// agree with the last step the least is made (C. G. Broyden, Math. Comp. 19 (1965) 577; its inverse form by
-// Sherman and Morrison).
+// The inverse of B = 1 - dg/dz of a large system, where computing B again takes as long as some passages:
+// kept from step to step and from orbit to orbit, and corrected by what each step shows. Of all corrections
+// that agree with the last step the least is made (C. G. Broyden, Math. Comp. 19 (1965) 577; its inverse form
+// by Sherman and Morrison).
 class KeptDerivative {
  public:
   // What B is the derivative of; that of another map is of no use.
@@ -30,7 +30,7 @@ class KeptDerivative {
   void correct(const Eigen::VectorXd& step, const Eigen::VectorXd& weighted, const Eigen::VectorXd& fall);
 
   // Whether further steps, each of which leaves the part `left` of the residual, until this part `needed` is
-  // left, would take longer than B anew and the steps after it.
+  // left, would take longer than B again and the steps after it.
   bool is_worth_renewing(double left, double needed) const;
 
  private:

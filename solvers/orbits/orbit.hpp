@@ -15,7 +15,7 @@ enum class Status {
       2,  // a contact's velocity or force only touches: the response is right, its derivative does not exist
   unbounded = 3,  // an undamped resonance that friction cannot hold: no periodic response exists
   failed = 4,
-  several = 5,       // laws that are not monotone: more than one stable orbit was found, one of which is told
+  several = 5,  // laws that are not monotone: more than one stable orbit was found, one of which is reported
   not_periodic = 6,  // the same: no stable orbit was found among the multiples of the period that were tried
 };
 
@@ -53,7 +53,7 @@ struct Orbit {
 
   double sign() const { return half_period ? -1.0 : 1.0; }
   bool is_found() const { return has_response(status); }
-  // Stable, as a linear motion beside it shows. The multipliers +1 of contacts that rest do not count.
+  // Stable, as a linear motion next to it shows. The multipliers +1 of contacts that rest do not count.
   bool is_stable() const { return floquet_radius < 1.0; }
 };
 

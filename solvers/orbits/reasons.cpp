@@ -21,11 +21,11 @@ std::string no_convergence(int passages, double residual) {
 
 std::string none_stable(int starts, int most_multiple, bool found_unstable) {
   return with_numbers("no stable orbit of up to %d periods was found from %d starts%s", most_multiple, starts,
-                      found_unstable ? ", only unstable ones" : "");
+                      found_unstable ? "; only unstable ones exist among those found" : "");
 }
 
 std::string not_settled(int periods, int most_multiple) {
-  return with_numbers("the motion of the sweep came to no stable orbit of up to %d periods within %d periods",
+  return with_numbers("the motion of the sweep reached no stable orbit of up to %d periods within %d periods",
                       most_multiple, periods);
 }
 

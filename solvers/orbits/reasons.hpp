@@ -14,7 +14,7 @@ inline constexpr const char* kUnbounded =
 
 // The search ended after this many passages with this residual.
 std::string no_convergence(int passages, double residual);
-// Of so many starts none led to a stable orbit of up to this multiple of the period.
+// For so many starts none led to a stable orbit of up to this multiple of the period.
 std::string none_stable(int starts, int most_multiple, bool found_unstable);
 // The motion that was followed for so many periods came to none.
 std::string not_settled(int periods, int most_multiple);

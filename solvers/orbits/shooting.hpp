@@ -7,7 +7,7 @@
 #include "solvers/orbits/orbit.hpp"
 
 // The periodic orbit as a fixed point of the period map g, by Newton's method on g(z) - z = 0 with the exact
-// derivative of g; of a large system with one that is kept, corrected, and computed anew, in single
+// derivative of g; of a large system with one that is kept, corrected, and computed again, in single
 // precision, where its steps no longer serve (KeptDerivative). If a Newton step reduces the residual too
 // little, the map itself is applied: under monotone laws it expands no distance in the energy norm, so the
 // search converges if the map contracts. Where it only turns about its orbit, means of a state and its image
@@ -17,7 +17,7 @@ namespace frahm::periodic {
 struct ShootingOptions {
   double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
   double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
-  double pays = 0.1;           // part of the residual that a Newton step must remove, else it is refused
+  double pays = 0.1;           // part of the residual that a Newton step must remove, otherwise it is refused
   double turns = 1e-6;         // the map only turns if it removes no more of the residual than this
   int most_turns = 8;          // maps in a row
   int most_maps = 256;         // in a row, before Newton's method is tried again
@@ -98,7 +98,6 @@ void follow_tangent(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
 }
 
 extern template class Shooting<1, 1>;
-extern template class Shooting<1, 2>;
 extern template class Shooting<2, 1>;
 extern template class Shooting<Eigen::Dynamic, Eigen::Dynamic>;
 

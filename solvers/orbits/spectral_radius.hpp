@@ -32,7 +32,7 @@ double spectral_radius(Square A, int squarings = 36) {
       const Square once = A / size;
       const double trace = once.trace(), product = 0.5 * (trace * trace - (once * once).trace());
       const double largest = larger_root(0.5 * trace, 0.25 * trace * trace - product, product);
-      // Of a defective matrix both may be rounding; the norm's own root is right then.
+      // For a defective matrix both may be rounding; the norm's own root is right then.
       const double power = largest > 1e-8 ? largest * size : size;
       return std::exp2(exponent + share * std::log2(power));
     }

@@ -27,7 +27,7 @@ struct BendForceDerivative {
   }
 };
 
-// Of its force [N], where the state x changes by `delta`, time held.
+// For its force [N], where the state x changes by `delta`, time held.
 template <int N, int H>
 double bend_force_derivative(const StepBends<N, H>& bends, const StepBends<N, H>& by, const Instant<N, H>& x,
                              const typename Sizes<N, H>::State& delta, Eigen::Index j) {
@@ -38,7 +38,7 @@ double bend_force_derivative(const StepBends<N, H>& bends, const StepBends<N, H>
          force.of_velocity.dot(x.z.segment(n, n)) + force.of_oscillators.dot(x.u);
 }
 
-// Of u - D [m], or u' - D of a velocity.
+// For u - D [m], or u' - D of a velocity.
 template <int N, int H>
 double bend_place_derivative(const StepBends<N, H>& bends, const StepBends<N, H>& by, const Instant<N, H>& x,
                              const typename Sizes<N, H>::State& delta, Eigen::Index j) {

@@ -25,10 +25,10 @@ struct ContactStretch {
 // stretches: over a period, or over half a period after which all repeats with the opposite sign.
 ContactHistory contact_history(std::span<const ContactStretch> stretches, bool half_period);
 
-// Of a contact that slides and comes to rest so often in a period.
+// For a contact that slides and comes to rest so often in a period.
 Regime regime_of_stops(int stops);
 
-// Of a contact whose friction is `force` [N].
+// For a contact whose friction is `force` [N].
 Regime regime_of(double force, const ContactHistory& history);
 
 }  // namespace frahm::periodic

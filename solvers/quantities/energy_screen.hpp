@@ -229,7 +229,6 @@ void EnergyScreen<N, H>::add_friction(const Mode<N, H>& mode, const Step& first,
 }
 
 extern template class EnergyScreen<1, 1>;
-extern template class EnergyScreen<1, 2>;
 extern template class EnergyScreen<2, 1>;
 extern template class EnergyScreen<Eigen::Dynamic, Eigen::Dynamic>;
 

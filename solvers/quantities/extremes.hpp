@@ -77,7 +77,6 @@ Extremes find_extremes(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double s
 }
 
 extern template class TracedOrbit<1, 1>;
-extern template class TracedOrbit<1, 2>;
 extern template class TracedOrbit<2, 1>;
 extern template class TracedOrbit<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -75,7 +75,6 @@ class Gradient {
 };
 
 extern template class Gradient<1, 1>;
-extern template class Gradient<1, 2>;
 extern template class Gradient<2, 1>;
 extern template class Gradient<Eigen::Dynamic, Eigen::Dynamic>;
 

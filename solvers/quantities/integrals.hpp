@@ -46,7 +46,7 @@ class Integrals {
                  std::span<const LinearForm<N, H>> signals, const PowersOf& powers_of);
 
   const Gram& gram() const { return gram_; }  // [units of the state x s]
-  // Of each signal a row: its products with the oscillators, and its square.
+  // For each signal a row: its products with the oscillators, and its square.
   const Eigen::MatrixXd& signals() const { return signals_; }
   double input() const { return input_; }            // [J] in a period
   double input_size() const { return input_size_; }  // integral of |power| [J], to quadrature accuracy
@@ -131,7 +131,6 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
 }
 
 extern template class Integrals<1, 1>;
-extern template class Integrals<1, 2>;
 extern template class Integrals<2, 1>;
 extern template class Integrals<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -35,7 +35,7 @@ class Observables {
 
   // Whether the work put in in a period is dissipated in it. evaluate() uses the same measurements.
   bool is_balanced(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system);
-  // Of the orbit that was not balanced.
+  // For the orbit that was not balanced.
   double energy_balance() const { return value::energy_balance(measured_, {}); }
 
   // The next call measures another orbit.
@@ -96,7 +96,6 @@ void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::Line
 }
 
 extern template class Observables<1, 1>;
-extern template class Observables<1, 2>;
 extern template class Observables<2, 1>;
 extern template class Observables<Eigen::Dynamic, Eigen::Dynamic>;
 

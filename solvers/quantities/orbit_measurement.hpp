@@ -155,7 +155,6 @@ double OrbitMeasurement<N, H>::relative_displacement(Eigen::Index contact, const
 }
 
 extern template class OrbitMeasurement<1, 1>;
-extern template class OrbitMeasurement<1, 2>;
 extern template class OrbitMeasurement<2, 1>;
 extern template class OrbitMeasurement<Eigen::Dynamic, Eigen::Dynamic>;
 

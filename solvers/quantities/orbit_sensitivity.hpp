@@ -12,7 +12,7 @@
 // s = -1 for a passage of half a period.
 namespace frahm::periodic {
 
-// "" if the orbit's search succeeded; else why there is no derivative.
+// "" if the orbit's search succeeded; otherwise why there is no derivative.
 template <int N, int H>
 const char* why_no_orbit_derivative(const Orbit<N, H>& orbit) {
   switch (orbit.status) {
@@ -84,7 +84,7 @@ template <int N, int H>
 const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by) {
   passage_.set_direction(by);
   const typename S::State g_p =
-      passage_.sweep(steps_, orbit_->passage.changes, S::State::Zero(flow_.equations().states()));
+      passage_.carry(steps_, orbit_->passage.changes, S::State::Zero(flow_.equations().states()));
   if (*passage_.why_none() != '\0') return passage_.why_none();
   typename S::State right_side = orbit_->sign() * g_p;
   add_rest_positions(right_side);
@@ -94,7 +94,7 @@ const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by
   if (!start.allFinite() || eq.energy_norm(start) > kBeyondRounding * eq.energy_norm(right_side)) {
     return "the period map has a multiplier of 1: the response is one of many";
   }
-  passage_.sweep(steps_, orbit_->passage.changes, start);
+  passage_.carry(steps_, orbit_->passage.changes, start);
   return passage_.why_none();
 }
 

@@ -56,15 +56,15 @@ class PassageSensitivity {
 
   explicit PassageSensitivity(const Flow<N, H>& flow) : flow_(flow) {}
 
-  // The direction from now on; `by` must outlive what is asked below. To be called anew when the flow's
+  // The direction from now on; `by` must outlive what is asked below. To be called again when the flow's
   // system or forcing has changed.
   void set_direction(const StepDerivative<N, H>& by);
 
   // delta over a passage that begins with delta = `start`; returns delta at its end. The steps, laid out and
   // expanded, and the changes found in them must outlive what is asked below.
-  typename S::State sweep(Steps steps, std::span<const Event> changes, const typename S::State& start);
+  typename S::State carry(Steps steps, std::span<const Event> changes, const typename S::State& start);
 
-  // Why there is no derivative across the changes of the last sweep; "" if there is one.
+  // Why there is no derivative across the changes of the last passage; "" if there is one.
   const char* why_none() const { return why_none_; }
 
   // One side of a change: the mode there, and the instant seen from inside it.
@@ -151,7 +151,7 @@ const ModeDerivative<N, H>& PassageSensitivity<N, H>::mode(std::size_t index) {
 }
 
 template <int N, int H>
-typename Sizes<N, H>::State PassageSensitivity<N, H>::sweep(Steps steps, std::span<const Event> changes,
+typename Sizes<N, H>::State PassageSensitivity<N, H>::carry(Steps steps, std::span<const Event> changes,
                                                             const typename S::State& start) {
   steps_ = steps;
   polynomials_.resize(std::max(polynomials_.size(), steps.size()));
@@ -360,8 +360,8 @@ void PassageSensitivity<N, H>::set_shift(GuardReached& reached, const Side& befo
   reached.size = (size + std::abs(by)) / std::abs(reached.slope);
 }
 
-// Of all that reached their guards, NaN where it differs; else of an idle contact's share that falls below
-// its limit.
+// For all that reached their guards, NaN where it differs; otherwise of an idle contact's share that falls
+// below its limit.
 template <int N, int H>
 double PassageSensitivity<N, H>::common_shift(const Event& change, const Side& after,
                                               const typename S::State& delta) {

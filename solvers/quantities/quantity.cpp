@@ -168,7 +168,7 @@ const QuantityRow* row_named(const std::string& name) {
   return best;
 }
 
-// Of an element's displacement, which has no end on a belt.
+// For an element's displacement, which has no end on a belt.
 bool is_of_displacement(const QuantityRow& row) {
   return row.measure == Measure::stroke || row.measure == Measure::element_phase;
 }
@@ -201,9 +201,9 @@ std::vector<Quantity> all_quantities(const Network& network) {
   return result;
 }
 
-std::vector<Quantity> with_always_recorded(std::vector<Quantity> listed, const Network& network) {
+std::vector<Quantity> with_always_stored(std::vector<Quantity> listed, const Network& network) {
   for (const Quantity& each : all_quantities(network))
-    if (row_of(each.measure).recorded_always && std::ranges::find(listed, each) == listed.end())
+    if (row_of(each.measure).stored_always && std::ranges::find(listed, each) == listed.end())
       listed.push_back(each);
   return listed;
 }

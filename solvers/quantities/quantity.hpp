@@ -66,17 +66,17 @@ enum class Regime {
   stuck = 5
 };
 
-// Of a peak: the larger of both, the largest value, or the least with its sign turned. One side alone is for
+// For a peak: the larger of both, the largest value, or the least with its sign turned. One side alone is for
 // an optimiser, for which the larger of both has a kink; it has no name of its own, and all_quantities() does
 // not list it.
 enum class Side { either, most, least };
 
 struct Quantity {
   Measure measure = Measure::status;
-  // Of the coordinate (mechanics/coordinates.hpp) or element; of a mode from 0; for transmitted_force 0 =
+  // For the coordinate (mechanics/coordinates.hpp) or element; of a mode from 0; for transmitted_force 0 =
   // ground, 1 + s = prescribed node s.
   std::size_t index = 0;
-  // Of peak, stroke, velocity_peak, acceleration_peak, force_peak, transmitted_force.
+  // For peak, stroke, velocity_peak, acceleration_peak, force_peak, transmitted_force.
   Side side = Side::either;
 
   friend bool operator==(const Quantity&, const Quantity&) = default;
@@ -109,14 +109,14 @@ std::vector<Quantity> all_quantities(const mechanics::Network& network);
 // transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
-// These, and behind them what every record has, whatever is listed: how the search ended, and whether its
+// These, and after them what every record has, whatever is listed: how the search ended, and whether its
 // response is all there is.
-std::vector<Quantity> with_always_recorded(std::vector<Quantity> listed, const mechanics::Network& network);
+std::vector<Quantity> with_always_stored(std::vector<Quantity> listed, const mechanics::Network& network);
 
 // Whether the page of an atlas shows the quantity unasked: peaks of masses and signals, strokes of the
 // springs, stops and regimes, the shares of what dissipates, and the status.
 bool is_shown(const Quantity& quantity, const mechanics::Network& network);
-// The same of a name whose network is not known: by its suffix, of any element.
+// The same for a name whose network is not known: by its suffix, of any element.
 bool is_shown(const std::string& name);
 
 std::optional<Quantity> find_quantity(const std::string& name, const mechanics::Network& network);

@@ -18,7 +18,7 @@ Derivative none(const char* reason) {
   return {.why_none = reason};
 }
 
-// The candidates that are, or tie for, an extreme must agree; else the extreme has a kink.
+// The candidates that are, or tie for, an extreme must agree; otherwise the extreme has a kink.
 Derivative extreme(const Measured& m, D by, std::size_t trace, Side side) {
   constexpr double kAgree = 1e-7;          // of derivatives that are one but for rounding
   if (m.half_period) side = Side::either;  // both sides are alike
@@ -85,7 +85,7 @@ double square_of_velocity(const Measured& m, D d, const mechanics::Incidence& at
   return f.dot(d.gram * f) + 2.0 * f_by.dot(m.gram * f);
 }
 
-// Of the integrals of c v^2 and s^2 / c, and of friction times the distance slid.
+// For the integrals of c v^2 and s^2 / c, and of friction times the distance slid.
 double loss(const Measured& m, D d, std::size_t e) {
   const mechanics::ElementCoefficients &law = m.system->coefficients[e], &law_by = d.system->coefficients[e];
   double by = 0.0;
@@ -118,7 +118,7 @@ double structural_loss(const Measured& m, D d) {
 }
 
 Derivative of_mode(double by) {
-  return std::isnan(by) ? none("two modes have one frequency") : Derivative{by};
+  return std::isnan(by) ? none("two modes have the same frequency") : Derivative{by};
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ Derivative peak_phase(const Measured& m, D d, const Asked& asked) {
     if (at_peak != nullptr) return none("two extremes tie: it has a jump here");
     at_peak = &d.candidates[asked.trace][i];
   }
-  if (at_peak == nullptr) return none("the largest value is held, never reached");
+  if (at_peak == nullptr) return none("the largest value is approached but never reached");
   return {at_peak->angle};
 }
 

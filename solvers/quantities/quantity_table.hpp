@@ -71,7 +71,7 @@ struct QuantityRow {
   bool of_a_period = false;  // over n periods n times as large
   Standard standard = {};
   Shown shown = Shown::no;
-  bool recorded_always = false;               // whatever a study lists
+  bool stored_always = false;                 // whatever a study lists
   TraceKind trace = TraceKind::displacement;  // of what `of_trace` is asked
   OfTrace of_trace = OfTrace::nothing;
   Needs needs = {};

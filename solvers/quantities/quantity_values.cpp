@@ -101,7 +101,7 @@ double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {
 void tell_together(const mechanics::Network& network, std::vector<double>& of_elements) {
   for (std::size_t e = 0; e < of_elements.size(); ++e) {
     if (network.elements[e].parts == 0)
-      of_elements[mechanics::told_by(network, e)] += std::exchange(of_elements[e], 0.0);
+      of_elements[mechanics::reported_by(network, e)] += std::exchange(of_elements[e], 0.0);
   }
 }
 

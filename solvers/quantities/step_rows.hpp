@@ -87,7 +87,6 @@ void StepRows<N, H>::turn(const Mode<N, H>& mode) {
 }
 
 extern template class StepRows<1, 1>;
-extern template class StepRows<1, 2>;
 extern template class StepRows<2, 1>;
 extern template class StepRows<Eigen::Dynamic, Eigen::Dynamic>;
 

@@ -33,7 +33,7 @@ auto force_form(const Forms& forms, std::size_t element, std::size_t parts,
 }
 
 // The linear form of a trace by the forms of a law (flow/linear_form.hpp, smooth/forms.hpp). mode...: what
-// the law's accelerations and forces depend on beside the state.
+// the law's accelerations and forces depend on in addition to the state.
 template <class Forms, class... Mode>
 auto form_of(const Trace& trace, const Forms& forms, const mechanics::LinearSystem& system,
              const Mode&... mode) {

@@ -6,8 +6,8 @@
 namespace frahm::periodic {
 namespace {
 
-// Whether a step may have an extreme within that counts beside those so far. Bernstein coefficients of the
-// cubic Hermite interpolant bound it; the fourth derivative adds less than `slack`.
+// Whether a step may have an extreme within that counts in addition to those so far. Bernstein coefficients
+// of the cubic Hermite interpolant bound it; the fourth derivative adds less than `slack`.
 bool may_matter(const TraceStep& step, const Extremes& so_far) {
   const ValueAndSlope &left = step.left, &right = step.right;
   const double b1 = left.value + left.slope * step.length / 3.0,

@@ -13,7 +13,7 @@
 // converted to the period of omega.
 namespace frahm::periodic {
 
-// Of the orders above zero, a crank counting as its first; 1 where there is none.
+// For the orders above zero, a crank counting as its first; 1 where there is none.
 int common_divisor(const mechanics::Network& network);
 
 // A solver for a network whose orders have a common divisor, over one that `make` gives for the divided

@@ -30,7 +30,7 @@ Sequence sequence_of(const PeriodicResponse& response) {
 }
 
 // The quantities of the response; all NaN if the values are out of range, or the events are not `events`.
-// anew: the search starts without known orbits.
+// again: the search starts without known orbits.
 std::vector<double> solve(PeriodicResponse& response, const mechanics::NetworkValues& values, bool anew,
                           const Sequence& events, std::size_t count) {
   std::vector<double> result(count, kNone);
@@ -60,7 +60,7 @@ struct Differences {
   double noise = 0.0;  // change of the quantity when its search starts elsewhere
 };
 
-// Of each quantity. own: the events at the parameter's own value.
+// For each quantity. own: the events at the parameter's own value.
 std::vector<Differences> central_differences(PeriodicResponse& response,
                                              const std::vector<Quantity>& quantities, const Sequence& own,
                                              const CheckedParameter& parameter) {

@@ -28,15 +28,15 @@ struct DerivativeCheck {
 };
 
 struct GradientCheck {
-  std::string reason;                                 // why there are no derivatives at all; else empty
+  std::string reason;                                 // why there are no derivatives at all; otherwise empty
   std::vector<std::vector<DerivativeCheck>> columns;  // of each parameter, of each quantity; empty then
 };
 
-// What stands beside the exact derivatives: central differences, or NaN in their place.
+// What stands next to the exact derivatives: central differences, or NaN in their place.
 enum class CheckedBy { differences, nothing };
 
 // The exact derivatives of the quantities at the periodic response of `values`, and central differences
-// beside them. The responses on both sides are solved without known orbits, at steps from 2 % of the
+// next to them. The responses on both sides are solved without known orbits, at steps from 2 % of the
 // parameter (of 1 where it is zero) down to 5e-6 of it, extrapolated to zero (C. Ridders, Adv. Eng. Software
 // 4 (1982) 75); steps at which other events occur are left out. Differences are refused where the exact
 // derivative is: at grazing a central difference is the mean of two derivatives.

@@ -59,7 +59,7 @@ class PeriodicResponse {
   // The periodic response at the values set. Never throws: every point ends in a status.
   const ResponseSummary& solve();
 
-  // Of a system that may have several responses. start_from: where the next solve() looks first, beside its
+  // For a system that may have several responses. start_from: where the next solve() looks first, next to its
   // own starts. known: the stable responses that the last one found, for a point near it.
   void start_from(std::span<const KnownOrbit> known);
   std::vector<KnownOrbit> known() const;
@@ -69,8 +69,9 @@ class PeriodicResponse {
   // quantities, but no gradient.
   void tell(int which);
 
-  // The Floquet multipliers of the response that is told, over its own period, the largest first; those of
-  // the rest positions of contacts that never slide are 0. None where it has none (grazing), or no response.
+  // The Floquet multipliers of the response that is reported, over its own period, the largest first; those
+  // of the rest positions of contacts that never slide are 0. None where it has none (grazing), or no
+  // response.
   std::vector<std::complex<double>> multipliers();
 
   // The quantities given to the constructor, in their order; NaN (counts -1, flags 0) where the response is
@@ -85,7 +86,7 @@ class PeriodicResponse {
   // Returns "", or why the response has no derivatives, and then every entry of `out` is NaN: it is grazing
   // (an event only just happens, and the derivative differs on both sides), unbounded or failed, of a
   // smooth law, or several contacts come to rest, or let go of static limits or hit damped stops, at one
-  // instant. Of several responses they are those of the one that is told.
+  // instant. Of several responses they are those of the one that is reported.
   std::string gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out);
   // Why a quantity of the last gradient() has none; "" where it has.
   std::string why_no_derivative(std::size_t quantity) const;
@@ -93,11 +94,11 @@ class PeriodicResponse {
   // What sensors show of a response that is ok, several or grazing.
   // times: [s], at any of which the excitation's phase is omega t.  directions: as of gradient(); may be
   // none. Returns "", or why there are no derivatives (as gradient() says); `out` then has the values alone.
-  // Of a smooth law there are neither.
+  // For a smooth law there are neither.
   std::string observe(std::span<const double> times, std::span<const Observed> observed,
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out);
 
-  // Of a response that is ok, several or grazing, at these phases omega t [rad]; where something jumps, what
+  // For a response that is ok, several or grazing, at these phases omega t [rad]; where something jumps, what
   // it jumps to.
   History history(std::span<const double> phases);
   std::vector<Stretch> stretches() const;

@@ -12,7 +12,7 @@ std::optional<Eigen::MatrixXd> correlated_normals(const Eigen::VectorXd& mean,
                                                   const Eigen::MatrixXd& unit_points) {
   constexpr double kRounding = 1e-10;  // of the correlations
   if (!covariance.allFinite() || (covariance.diagonal().array() < 0.0).any()) return std::nullopt;
-  // Of the correlation, so that no unit counts: covariance = D R D.
+  // For the correlation, so that no unit counts: covariance = D R D.
   const Eigen::VectorXd deviation = covariance.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = (deviation.array() > 0.0).select(deviation.cwiseInverse(), 0.0);
   const Eigen::MatrixXd correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();

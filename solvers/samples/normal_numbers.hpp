@@ -10,7 +10,7 @@ namespace frahm::samples {
 // functions that round alike (elementary.hpp).
 class NormalNumbers {
  public:
-  // Of one stream of a seed: numbers of different streams are independent.
+  // For one stream of a seed: numbers of different streams are independent.
   NormalNumbers(std::uint64_t seed, std::uint32_t stream);
 
   double next();

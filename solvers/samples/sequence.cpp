@@ -35,7 +35,7 @@ Eigen::MatrixXd sobol_points(std::size_t points, std::size_t dimensions, Generat
   Eigen::MatrixXd result(points, dimensions);
   std::vector<std::uint64_t> shift(dimensions);
   for (std::uint64_t& each : shift) each = generator();
-  boost::random::sobol sequence(dimensions);  // begins behind the origin
+  boost::random::sobol sequence(dimensions);  // begins after the origin
   for (std::size_t i = 0; i < points; ++i) {
     for (std::size_t d = 0; d < dimensions; ++d)
       result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(d)) =

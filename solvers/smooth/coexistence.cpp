@@ -197,9 +197,9 @@ void Coexistence::tell(Orbit& orbit) {
     orbit.unsettled = unsettled_;
   } else {
     const bool largest = wanted_.show == periodic::OrbitsWanted::Show::largest;
-    const auto told = std::ranges::max_element(
+    const auto reported = std::ranges::max_element(
         stable_, {}, [&](const Found& found) { return largest ? found.peak : -found.peak; });
-    return tell(static_cast<std::size_t>(told - stable_.begin()), orbit);
+    return tell(static_cast<std::size_t>(reported - stable_.begin()), orbit);
   }
   orbit.passages = passages_;
   orbit.newton_iterations = newton_iterations_;

@@ -20,7 +20,7 @@ class Coexistence {
         wanted_(wanted) {}
 
   void forget() { before_.clear(); }
-  // Finds the orbit to be told, its section at omega t = 0; the equation, which is set to `system` and
+  // Finds the orbit to be reported, its section at omega t = 0; the equation, which is set to `system` and
   // `values`, is then set to the orbit's multiple of the period.
   void find(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values, Orbit& orbit);
   // Another one of those found; the equation is set to `system` before.

@@ -44,7 +44,7 @@ const char* failure_text(int flag) {
   }
 }
 
-// Of a step with its sensitivities, and without them [s], of N states: measured from 2 to 400.
+// For a step with its sensitivities, and without them [s], of N states: measured from 2 to 400.
 double step_work(double N) {
   return 1.5e-6 + 1e-6 * N + 0.12e-6 * N * N + 1.5e-9 * N * N * N;
 }

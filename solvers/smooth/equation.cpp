@@ -158,7 +158,7 @@ SteadyState Equation::linear_response(const StraightTerms& terms) const {
   return steady_state(A_ + damped * W_, B);
 }
 
-// Of each harmonic (i Omega - A) Z = b, and A Z = -b of the constant.
+// For each harmonic (i Omega - A) Z = b, and A Z = -b of the constant.
 SteadyState Equation::steady_state(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) const {
   SteadyState state;
   state.mean = algebra::solve(A, Eigen::VectorXd(-B.col(0)));

@@ -53,7 +53,7 @@ class Equation {
   bool rubs(Eigen::Index term) const;
   double omega() const { return omega_; }
   double period() const;  // [s]
-  // Of the lowest order of the forcing [rad/s].
+  // For the lowest order of the forcing [rad/s].
   double lowest_rate() const { return omega_ * orders_.front(); }
 
   // z' at time t [s], counted from omega t = 0; and its derivative by z, N x N.
@@ -73,7 +73,7 @@ class Equation {
 
   // The tangents of friction at rest, relative to the mean velocity of supports; of other terms nothing.
   StraightTerms at_rest() const;
-  // Of friction in this motion: its mean, and the damper that takes as much energy of what moves about it.
+  // For friction in this motion: its mean, and the damper that takes as much energy of what moves about it.
   StraightTerms equivalent(const SteadyState& state) const;
 
   // The energy norm, sqrt((v^T M v + q^T K q + sum s^2/k) / 2) [sqrt(J)]; of a matrix that maps states, no
@@ -86,7 +86,7 @@ class Equation {
   double energy_scale(const Eigen::VectorXd& z) const { return std::max(energy_norm(z), static_norm_); }
   // Largest static displacement under the amplitudes of the forcing [m].
   double static_displacement() const { return static_displacement_; }
-  // The largest displacement at which a term begins to matter beside what is linear [m].
+  // The largest displacement at which a term begins to matter compared with what is linear [m].
   double bent_displacement() const { return bent_displacement_; }
   // Scales of displacements, velocities and Maxwell forces for their errors: the largest values, and at least
   // a thousandth of the static ones.

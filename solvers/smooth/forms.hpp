@@ -21,7 +21,7 @@ struct Form {
   }
 };
 
-// The forms of a network, in SI units; they hold until the equation is set anew.
+// The forms of a network, in SI units; they hold until the equation is set again.
 class Forms {
  public:
   // Both must outlive the forms.

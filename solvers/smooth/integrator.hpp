@@ -13,8 +13,8 @@ struct IntegratorOptions {
   // Local error of a step, relative to the state and to its scale: near what rounding allows, as the errors
   // of some thousand steps a period add up, and a weakly damped orbit multiplies them.
   double tolerance = 1e-13;
-  // Of the sensitivities, whose columns are scaled to order 1: Newton's method tolerates such errors, and the
-  // Floquet multipliers are wanted to 1e-6 or so.
+  // For the sensitivities, whose columns are scaled to order 1: Newton's method tolerates such errors, and
+  // the Floquet multipliers are wanted to 1e-6 or so.
   double sensitivity_tolerance = 1e-8;
   double follow_tolerance = 1e-7;  // of motions that are followed only until they come near an orbit
   long most_steps = 200000;  // of one passage: some ten times what two stops a period take at a slope of 1e6
@@ -49,7 +49,7 @@ class Integrator {
   // not reach it.
   bool follow(Eigen::VectorXd& state, double t, double duration, const Eigen::VectorXd& scale);
 
-  // Of all passages: one fails where it is over.
+  // For all passages: one fails where it is over.
   periodic::SearchWork& work() { return work_; }
 
  private:

@@ -15,7 +15,7 @@ struct Arctan {
   ForceAndSlope at(double v) const;
 };
 
-// cubic u^3, beside the linear spring
+// cubic u^3, next to the linear spring
 struct Cubic {
   double cubic = 0.0;  // [N/m3]
 

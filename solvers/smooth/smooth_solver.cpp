@@ -53,8 +53,9 @@ const Network& without_mixed_laws(const Network& network) {
   for (const Element& element : network.elements) {
     const bool rubs_exactly = mechanics::has_contact(element) && !mechanics::has_smooth_law(element);
     if (!rubs_exactly && element.bends.empty()) continue;
-    throw mechanics::MechanicsError("element '" + element.name +
-                                    "' follows an exact law and others a smooth one: one kind for all");
+    throw mechanics::MechanicsError(
+        "element '" + element.name +
+        "' follows an exact law and others a smooth one: all must follow the same kind");
   }
   return network;
 }
@@ -106,7 +107,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
 
   void quantities(std::span<double> out) override {
     if (orbit_.is_found())
-      observables_.evaluate(orbit_, told(), out);
+      observables_.evaluate(orbit_, reported_system(), out);
     else
       observables_.fill_missing(orbit_.status, orbit_.unsettled, out);
   }
@@ -116,7 +117,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
     return why_no_derivative(0);
   }
   const char* why_no_derivative(std::size_t) const override {
-    return "a response under a smooth law is integrated, and has no exact derivative";
+    return "a response under a smooth law is integrated and has no exact derivative";
   }
 
   const char* observe(std::span<const double>, std::span<const periodic::Observed>,
@@ -128,7 +129,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
   std::vector<periodic::Stretch> stretches() const override { return {}; }  // nothing ever sticks
 
  private:
-  const mechanics::LinearSystem& told() const { return orbit_.multiple > 1 ? longer_ : system_; }
+  const mechanics::LinearSystem& reported_system() const { return orbit_.multiple > 1 ? longer_ : system_; }
   void search();
   void search_one();
   bool guess_from_exact_law();
@@ -302,8 +303,8 @@ void SmoothSolver::guess_equivalent_response() {
 // The orbit at omega t = phase.
 void SmoothSolver::state_at(double phase, Eigen::VectorXd& z) const {
   const periodic::PlaceOnOrbit place =
-      periodic::place_on_orbit(phase, told().omega * orbit_.section, orbit_.half_period);
-  const double t = orbit_.section + place.from_section / told().omega;
+      periodic::place_on_orbit(phase, reported_system().omega * orbit_.section, orbit_.half_period);
+  const double t = orbit_.section + place.from_section / reported_system().omega;
   const Trajectory& trajectory = orbit_.passage.trajectory;
   trajectory.state(trajectory.step_at(t), t, z);
   z *= place.sign;
@@ -324,8 +325,8 @@ History SmoothSolver::history(std::span<const double> phases) {
   Eigen::VectorXd z;
   for (const double phase : phases) {
     state_at(phase, z);
-    equation_.look(phase / told().omega, z, instant);
-    result.time.push_back(phase / told().omega);
+    equation_.look(phase / reported_system().omega, z, instant);
+    result.time.push_back(phase / reported_system().omega);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < equation_.masses(); ++mass) {
       result.columns[column++].push_back(z[mass]);

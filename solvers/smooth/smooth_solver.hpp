@@ -12,9 +12,9 @@
 namespace frahm::smooth {
 
 // A solver for a network all of whose contacts are smooth. Where its laws are monotone it starts from the
-// orbit of the exact law, or the linear response, and shoots on the sensitivities of CVODES; else it searches
-// the orbits that are wanted. Throws mechanics::MechanicsError for a network that cannot move, or that has
-// contacts, stops or tables that are followed exactly.
+// orbit of the exact law, or the linear response, and shoots on the sensitivities of CVODES; otherwise it
+// searches the orbits that are wanted. Throws mechanics::MechanicsError for a network that cannot move, or
+// that has contacts, stops or tables that are followed exactly.
 std::unique_ptr<periodic::ResponseSolver> make_solver(const mechanics::Network& network,
                                                       const std::vector<periodic::Quantity>& quantities,
                                                       const periodic::OrbitsWanted& wanted);

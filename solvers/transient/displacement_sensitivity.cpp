@@ -35,10 +35,10 @@ void check(const Network& network, std::span<const NetworkValues> along) {
     const bool is_constant = each.kind == ExcitationKind::force && each.order == 0;
     if (is_constant || mechanics::is_recorded(each.kind)) continue;
     throw mechanics::MechanicsError(
-        "beside records only constant forces may act where the derivatives of a peak are asked for");
+        "only constant forces may act together with records when the derivatives of a peak are requested");
   }
   if (std::ranges::any_of(along, [](const NetworkValues& each) { return each.omega != 0.0; }))
-    throw mechanics::MechanicsError("a motion under records has no derivative by a frequency");
+    throw mechanics::MechanicsError("a motion under records has no derivative with respect to a frequency");
 }
 
 // r at the time t, from the numbers of a record at an earlier one.

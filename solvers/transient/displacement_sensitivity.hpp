@@ -23,7 +23,7 @@ struct DisplacementSensitivity {
   Eigen::MatrixXd by;            // times x directions: its derivatives
 };
 
-// Of a motion from rest under records, beside which constant forces may act.
+// For a motion from rest under records, together with which constant forces may act.
 // coordinate: the mass or signal (mechanics/coordinates.hpp).  times: ascending [s], >= 0, at least one.
 // along: directions, derivatives of the values (mechanics/system_derivative.hpp); may be empty.
 // Throws mechanics::MechanicsError for values and records without a meaning, for another excitation, and for

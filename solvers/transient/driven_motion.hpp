@@ -9,7 +9,7 @@
 
 namespace frahm::transient {
 
-// A motion whose excitation is set anew, at another frequency, from time to time.
+// A motion whose excitation is set again, at another frequency, from time to time.
 class DrivenMotion {
  public:
   // course: of the records; null where there are none. All must outlive the motion.

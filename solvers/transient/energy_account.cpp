@@ -25,7 +25,7 @@ using AtNodes = Eigen::Array<double, kNodes, 1>;
 constexpr int kLanes = 8;
 using Powers = Eigen::Array<double, kLanes, kTerms>;
 
-// Of the nodes of a step's first `length`, a row for each.
+// For the nodes of a step's first `length`, a row for each.
 Powers powers_at_nodes(double length) {
   Powers at = Powers::Zero();
   for (int i = 0; i < kNodes; ++i)
@@ -197,13 +197,13 @@ void EnergyAccount::Account::add(const Form& form) {
 void EnergyAccount::list_losses(Account& account) const {
   for (std::size_t e = 0; e < system_.coefficients.size(); ++e) {
     const mechanics::ElementCoefficients& law = system_.coefficients[e];
-    const std::size_t told = mechanics::told_by(assembly_.network(), e);
+    const std::size_t reported = mechanics::reported_by(assembly_.network(), e);
     if (law.damping != 0.0) {
-      account.losses.push_back({told, law.damping});
+      account.losses.push_back({reported, law.damping});
       account.add(forms_.velocity(assembly_.incidences()[e]));
     }
     if (law.internal_damping != 0.0) {
-      account.losses.push_back({told, 1.0 / law.internal_damping});
+      account.losses.push_back({reported, 1.0 / law.internal_damping});
       Form force = forms_.zero();
       force.z[2 * flow_.equations().masses() + law.internal] = 1.0;
       account.add(force);
@@ -211,7 +211,7 @@ void EnergyAccount::list_losses(Account& account) const {
     if (law.friction != 0.0) {
       const mechanics::ContactShare& share = assembly_.shares()[e];
       account.losses.push_back(
-          {told, law.friction, Power::sliding, static_cast<Index>(share.contact), share.orientation});
+          {reported, law.friction, Power::sliding, static_cast<Index>(share.contact), share.orientation});
       account.add(forms_.velocity(assembly_.incidences()[e]));
     }
   }
@@ -352,7 +352,7 @@ void EnergyAccount::sample(const Account& account, const Expansion& step, double
   }
 }
 
-// Of the forms at the nodes.
+// For the forms at the nodes.
 void EnergyAccount::integrate(const Account& account, const Mode& mode, double length,
                               Energies& energies) const {
   const Eigen::Map<const AtNodes> weight(periodic::kNodeWeight);

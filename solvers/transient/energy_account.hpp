@@ -93,7 +93,7 @@ class EnergyAccount {
     std::vector<std::vector<Factor>> forms;
     std::vector<Eigen::Index> columns;  // that some form reads
     int whole_steps = 0;                // so far
-    // Of a whole step: input and loss are y^T Q y. Empty: not tabulated.
+    // For a whole step: input and loss are y^T Q y. Empty: not tabulated.
     Eigen::MatrixXd input, loss;
     std::vector<Eigen::Index> sliding;  // contacts whose loss is that of a speed which keeps its sign
     Eigen::MatrixXd starts;             // y of whole steps not yet summed up, a column each

@@ -19,19 +19,19 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kMostStairs = 1 << 20;  // of the finest staircase: a minute or so for a few masses
 
 // How the frequency runs: the time to its end, and phase and frequency until then.
-struct Sweep {
+struct Running {
   double from = 0.0, alpha = 0.0, time = 0.0;  // [rad/s], [rad/s^2], [s]
 
   double frequency(double t) const { return from + alpha * std::min(t, time); }
   double phase(double t) const { return (from + 0.5 * alpha * t) * t; }  // t <= time
 };
 
-Sweep sweep_of(const ForcedOptions& options) {
-  if (options.sweep.rate == 0.0) return {.from = options.from};
-  const double change = options.sweep.to - options.from;
+Running running_of(const ForcedOptions& options) {
+  if (options.run_up.rate == 0.0) return {.from = options.from};
+  const double change = options.run_up.to - options.from;
   return {.from = options.from,
-          .alpha = std::copysign(options.sweep.rate, change),
-          .time = std::abs(change) / options.sweep.rate};
+          .alpha = std::copysign(options.run_up.rate, change),
+          .time = std::abs(change) / options.run_up.rate};
 }
 
 // At one frequency, period by period, so that the phase is exact however long the motion is.
@@ -48,7 +48,7 @@ bool keep_frequency(DrivenMotion& driven, double omega, double phase, double unt
   return true;
 }
 
-// Under records, from one of their times to the next, beside harmonics of one frequency.
+// Under records, from one of their times to the next, together with harmonics of one frequency.
 bool follow_records(DrivenMotion& driven, double omega, const RecordCourse& course, double until) {
   const std::vector<double>& times = course.times();
   driven.drive(omega, 0.0, 0.0);
@@ -63,19 +63,19 @@ bool follow_records(DrivenMotion& driven, double omega, const RecordCourse& cour
   return true;
 }
 
-// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time. Start and end have their
+// Through a range of frequencies on `count` stairs, to time `until` <= running.time. Start and end have their
 // true frequency, half a stair from that of the first and the last stair, and the energies that belong to it.
-bool climb(DrivenMotion& driven, const Sweep& sweep, double until, int count) {
-  const double tau = until / count, lag = sweep.alpha * tau * tau / 12.0;
-  driven.drive(sweep.from, sweep.alpha, 0.0);
+bool climb(DrivenMotion& driven, const Running& running, double until, int count) {
+  const double tau = until / count, lag = running.alpha * tau * tau / 12.0;
+  driven.drive(running.from, running.alpha, 0.0);
   for (int i = 0; i < count; ++i) {
     const double start = tau * i;
-    const double phase = std::remainder(sweep.phase(start) - lag, kTurn);
-    driven.drive(sweep.frequency(start + 0.5 * tau), sweep.alpha, phase);
-    driven.trajectory.set_frequency(sweep.frequency(start), sweep.alpha);
+    const double phase = std::remainder(running.phase(start) - lag, kTurn);
+    driven.drive(running.frequency(start + 0.5 * tau), running.alpha, phase);
+    driven.trajectory.set_frequency(running.frequency(start), running.alpha);
     if (!driven.trajectory.advance(tau, phase)) return false;
   }
-  driven.drive(sweep.frequency(until), 0.0, std::remainder(sweep.phase(until), kTurn));
+  driven.drive(running.frequency(until), 0.0, std::remainder(running.phase(until), kTurn));
   return true;
 }
 
@@ -84,18 +84,18 @@ struct Problem {
   const ValuesAt& values_at;
   const InitialState& initial;
   const ForcedOptions& options;
-  Sweep sweep;
+  Running running;
   std::optional<RecordCourse> course = std::nullopt;
 };
 
 std::optional<RecordCourse> course_of(const mechanics::Network& network, const ForcedOptions& options) {
   if (!mechanics::has_records(network)) return std::nullopt;
-  if (options.sweep.rate != 0.0) throw mechanics::MechanicsError("a run-up cannot be driven by records too");
+  if (options.run_up.rate != 0.0)
+    throw mechanics::MechanicsError("a run-up cannot also be driven by records");
   for (const RecordedExcitation& each : options.records) {
     if (options.duration <= each.record->time.back() || is_known_behind(*each.record)) continue;
-    throw mechanics::MechanicsError(
-        "record '" + each.record->name +
-        "': ends while its support moves, so that the motion is not known beyond");
+    throw mechanics::MechanicsError("record '" + each.record->name +
+                                    "': ends while its support moves, so the later motion is not known");
   }
   return RecordCourse(network, options.records);
 }
@@ -130,7 +130,7 @@ double own_frequency(const Problem& problem) {
 // The motion with so many stairs, 0 for one frequency.
 ForcedMotion follow(const Problem& problem, int stairs, EnergyDetail energies) {
   const ForcedOptions& options = problem.options;
-  const Sweep& sweep = problem.sweep;
+  const Running& running = problem.running;
   const bool is_record = options.quantities.empty();
   MotionMeasurement measurement(problem.assembly, options.quantities, stairs > 0);
   std::optional<CoordinatePeaks> peaks;
@@ -145,14 +145,14 @@ ForcedMotion follow(const Problem& problem, int stairs, EnergyDetail energies) {
   bool complete = true;
   double phase = 0.0;
   if (stairs > 0) {
-    const double until = std::min(options.duration, sweep.time);
-    complete = climb(driven, sweep, until, stairs);
-    phase = std::remainder(sweep.phase(until), kTurn);
+    const double until = std::min(options.duration, running.time);
+    complete = climb(driven, running, until, stairs);
+    phase = std::remainder(running.phase(until), kTurn);
   }
   if (problem.course)
     complete = follow_records(driven, options.from, *problem.course, options.duration);
-  else if (complete && options.duration > sweep.time * (1.0 + 1e-12))
-    complete = keep_frequency(driven, sweep.frequency(sweep.time), phase, options.duration);
+  else if (complete && options.duration > running.time * (1.0 + 1e-12))
+    complete = keep_frequency(driven, running.frequency(running.time), phase, options.duration);
   ForcedMotion motion;
   motion.stairs = stairs;
   motion.discretisation_error = kNone;
@@ -161,7 +161,7 @@ ForcedMotion follow(const Problem& problem, int stairs, EnergyDetail energies) {
   if (energies != EnergyDetail::none) motion.energy = driven.trajectory.energy_budget();
   if (motion.failure.empty()) motion.failure = why_unbalanced(motion.energy);
   motion.history = driven.trajectory.samples();
-  for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
+  for (const double t : motion.history.time) motion.frequency.push_back(running.frequency(t));
   if (peaks) motion.peaks = peaks->found();
   if (complete)
     motion.numbers = measurement.numbers(driven.trajectory, motion.energy, own_frequency(problem));
@@ -206,10 +206,10 @@ double largest_peak(const ForcedMotion& motion, std::size_t masses) {
 
 // Stairs to begin with: a radian of the fastest excitation, and a phase that strays by a hundredth.
 int first_stairs(const Problem& problem) {
-  const Sweep& sweep = problem.sweep;
-  const double until = std::min(problem.options.duration, sweep.time);
-  const double radian = 1.0 / std::max(sweep.from, sweep.frequency(sweep.time));
-  const double strays = std::sqrt(0.12 / std::abs(sweep.alpha));
+  const Running& running = problem.running;
+  const double until = std::min(problem.options.duration, running.time);
+  const double radian = 1.0 / std::max(running.from, running.frequency(running.time));
+  const double strays = std::sqrt(0.12 / std::abs(running.alpha));
   return static_cast<int>(std::clamp(until / std::min(radian, strays), 8.0, 0.25 * kMostStairs));
 }
 
@@ -218,9 +218,9 @@ int first_stairs(const Problem& problem) {
 ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
                            const InitialState& initial, const ForcedOptions& options) {
   const mechanics::Assembly assembly(network);
-  const Problem problem{assembly, values_at,         initial,
-                        options,  sweep_of(options), course_of(network, options)};
-  if (problem.sweep.time == 0.0) return run(problem, 0);
+  const Problem problem{assembly, values_at,           initial,
+                        options,  running_of(options), course_of(network, options)};
+  if (problem.running.time == 0.0) return run(problem, 0);
   int stairs = first_stairs(problem);
   ForcedMotion coarse = run(problem, stairs);
   while (coarse.failure.empty()) {

@@ -14,14 +14,14 @@ namespace frahm::transient {
 
 // The excitation's phase: omega t at constant frequency; in a run-up or run-down
 //   phi(t) = omega_0 t + alpha t^2 / 2  until the frequency has reached `to`, where it stays.
-struct FrequencySweep {
+struct RunUp {
   double to = 0.0;    // [rad/s], > 0
   double rate = 0.0;  // |alpha| [rad/s^2], > 0
 };
 
 struct ForcedOptions {
   double from = 0.0;                             // frequency at t = 0 [rad/s], > 0
-  FrequencySweep sweep = {};                     // rate 0: none; must be none beside records
+  RunUp run_up = {};                             // rate 0: none; must be none with records
   std::vector<RecordedExcitation> records = {};  // of each recorded component of the excitation
   double duration = 0.0;                         // [s], > 0
   int samples = 0;
@@ -41,7 +41,7 @@ struct ForcedMotion {
   std::vector<std::vector<Stop>> stops;     // of each friction contact
   std::vector<std::vector<Touch>> touches;  // of each bend, in the order of mechanics::Bends
   EnergyBudget energy;                      // to the duration
-  // Of a run-up: the largest change of any sample of a mass [m] when the stairs were last halved; NaN
+  // For a run-up: the largest change of any sample of a mass [m] when the stairs were last halved; NaN
   // otherwise. The error that remains is a fraction of it, as halving divides it by four or more.
   double discretisation_error = 0.0;
   int stairs = 0;                                   // of a run-up
@@ -59,7 +59,7 @@ struct ForcedMotion {
 // Records are exact too: polynomials from one of their samples to the next, at which passages begin.
 //
 // Throws mechanics::MechanicsError for values and records without a meaning, and for a motion that outlasts a
-// record behind whose end its support's motion is not known (is_known_behind).
+// record after whose end its support's motion is not known (is_known_behind).
 ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
                            const InitialState& initial, const ForcedOptions& options);
 

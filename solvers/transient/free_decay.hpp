@@ -13,8 +13,8 @@
 namespace frahm::transient {
 
 struct DecayOptions {
-  // [s]; 0: until rest, else until the energy norm has fallen to kDecayed of its start, else kMostPeriods or
-  // kStepsByDefault, whichever comes first.
+  // [s]; 0: until rest, otherwise until the energy norm has fallen to kDecayed of its start, otherwise
+  // kMostPeriods or kStepsByDefault, whichever comes first.
   double duration = 0.0;
   int samples = 0;  // of the history, 0: none
   Watch watch = {};
@@ -42,7 +42,7 @@ enum class DecayEnd {
   failed,
 };
 
-// Of a mass or a signal.
+// For a mass or a signal.
 struct DecayOfMass {
   std::vector<Extremum> extrema;
   // ln |x_i / x_{i+2}|, a full cycle apart; NaN where there is no x_{i+2}, or one of the two is zero.

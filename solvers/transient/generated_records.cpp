@@ -13,7 +13,7 @@ namespace {
 
 using samples::NormalNumbers;
 
-// Of the soil and the corner at most, twice. Plain loops: no library's order of sums, so the same bits
+// For the soil and the corner at most, twice. Plain loops: no library's order of sums, so the same bits
 // anywhere.
 constexpr std::size_t kMost = 8;
 using Vector = std::array<double, kMost>;

@@ -8,7 +8,7 @@ namespace frahm::transient {
 
 // Which samples, and of which random numbers.
 struct RandomSampling {
-  double duration = 0.0;     // [s]; the last sample is not behind it
+  double duration = 0.0;     // [s]; the last sample is not after it
   double rate = 0.0;         // [1/s], samples a second
   std::uint64_t seed = 0;    // of an ensemble
   std::uint32_t stream = 0;  // of one record of it: records of different streams are independent

@@ -41,7 +41,7 @@ struct Touch {
 // States at given times, ascending.
 struct Samples {
   std::vector<double> time;  // [s]
-  // Of each mass, then of each signal, a value for each time: [m], [m/s], [m/s^2]; where the acceleration
+  // For each mass, then of each signal, a value for each time: [m], [m/s], [m/s^2]; where the acceleration
   // jumps, what it jumps to.
   std::vector<std::vector<double>> displacement, velocity, acceleration;
   // By each element since t = 0 [J]; of those that never dissipate, no values. Last, where there is one, by

@@ -22,7 +22,7 @@ class MotionMeasurement {
   // What the trajectory has to follow.
   LargestValues& largest() { return largest_; }
 
-  // Of a motion that is complete, one for each quantity. NaN: the discretisation error, which the trajectory
+  // For a motion that is complete, one for each quantity. NaN: the discretisation error, which the trajectory
   // does not know; velocities and accelerations of signals with a support's part in a run-up, where the
   // supports' rates jump from stair to stair.
   // own_frequency: the natural one [rad/s] of a network of one mass.

@@ -33,11 +33,12 @@ struct Row {
 
 using enum MotionMeasure;
 constexpr Row kTable[] = {
-    {peak, Owner::coordinate, "peak", "m", "largest displacement of {}, either way", true, true},
+    {peak, Owner::coordinate, "peak", "m", "largest displacement of {} in either direction", true, true},
     {peak_time, Owner::coordinate, "peak_time", "s", "time of the largest displacement of {}"},
-    {velocity_peak, Owner::coordinate, "velocity_peak", "m s-1", "largest velocity of {}, either way"},
+    {velocity_peak, Owner::coordinate, "velocity_peak", "m s-1",
+     "largest velocity of {} in either direction"},
     {acceleration_peak, Owner::coordinate, "acceleration_peak", "m s-2",
-     "largest acceleration of {}, either way", true, true},
+     "largest acceleration of {} in either direction", true, true},
     {rms, Owner::coordinate, "rms", "m", "root mean square of the displacement of {} over the motion"},
     {velocity_rms, Owner::coordinate, "velocity_rms", "m s-1",
      "root mean square of the velocity of {} over the motion"},
@@ -46,12 +47,13 @@ constexpr Row kTable[] = {
      "largest displacement of {} times the natural angular frequency", false, true},
     {pseudo_acceleration, Owner::oscillator, "pseudo_acceleration", "m s-2",
      "largest displacement of {} times the square of the natural angular frequency", false, true},
-    {stroke, Owner::element, "stroke", "m", "largest relative displacement across {}, either way", true,
-     true},
+    {stroke, Owner::element, "stroke", "m", "largest relative displacement across {} in either direction",
+     true, true},
     {energy, Owner::dissipating, "energy", "J", "energy dissipated by {}", true},
     {energy_share, Owner::dissipating, "energy_share", "1", "share of {} in the energy dissipated", false,
      true},
-    {slips, Owner::contact, "slips", "1", "phases in which {} slides", true, true, QuantityKind::count},
+    {slips, Owner::contact, "slips", "1", "number of phases in which {} slides", true, true,
+     QuantityKind::count},
     {damping_energy, Owner::structure, "damping_energy", "J",
      "energy dissipated by the damping of the structure", true},
     {damping_energy_share, Owner::structure, "damping_energy_share", "1",
@@ -60,9 +62,9 @@ constexpr Row kTable[] = {
     {final_energy, Owner::motion, "final_energy", "J", "kinetic and potential energy at the end"},
     {energy_input, Owner::motion, "energy_input", "J", "work of the excitation", true},
     {energy_balance, Owner::motion, "energy_balance", "1",
-     "energy at the start and put in less energy dissipated and at the end, relative", true},
+     "energy at the start plus energy put in, minus energy dissipated and energy at the end, relative", true},
     {discretisation_error, Owner::run_up, "discretisation_error", "m",
-     "largest change of any displacement when the stairs of the run-up were last halved", true},
+     "largest change of any displacement when the frequency steps of the run-up were last halved", true},
     {status, Owner::motion, "status", "", "how the computation of the motion ended", true, true,
      QuantityKind::flag},
 };
@@ -96,7 +98,7 @@ bool has(const Row& row, const Network& network, const mechanics::Element& eleme
   return !mechanics::is_on_belt(network, element.along);
 }
 
-// Of springs the stroke, of elements with a contact all.
+// For springs the stroke, of elements with a contact all.
 bool is_standard_of(const Row& row, const mechanics::Element& element) {
   const bool is_spring = mechanics::kind_of(element).stroke_is_standard && row.measure == stroke;
   return is_spring || mechanics::has_contact(element);

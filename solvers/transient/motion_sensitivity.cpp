@@ -106,7 +106,7 @@ void MotionSensitivity::differentiate() {
   jumps_ = false;
   for (Direction& d : directions_) {
     if (*why_none_ != '\0') return;
-    d.delta = d.sensitivity.sweep(steps, passage_.changes, d.delta);
+    d.delta = d.sensitivity.carry(steps, passage_.changes, d.delta);
     why_none_ = d.sensitivity.why_none();
   }
 }

@@ -14,7 +14,7 @@ enum class Interpolation { spline, linear };
 // Forces, velocities and accelerations are linear from one sample to the next, and motions follow from them
 // exactly: a velocity begins at displacement 0, an acceleration at velocity 0 too. A displacement is the
 // cubic spline through its samples, whose slopes at both ends are those of the parabola through the first, or
-// last, three; or it is linear too, and its velocity jumps at the samples. Behind the end a force and an
+// last, three; or it is linear too, and its velocity jumps at the samples. After the end a force and an
 // acceleration are 0; a motion whose velocity or displacement is recorded must have come to rest there, or is
 // not known.
 struct Record {

@@ -18,7 +18,7 @@ using mechanics::MechanicsError;
 // r, r', r'', r''' at an instant.
 using Numbers = std::array<double, mechanics::kRecordNumbers>;
 
-// Of a record's range: far beyond what lies between the samples of a smooth motion.
+// For a record's range: far beyond what lies between the samples of a smooth motion.
 constexpr double kStrays = 0.25;
 
 // Slope at t[0] of the parabola through three points.
@@ -58,7 +58,7 @@ Numbers later(const Numbers& r, double s) {
           r[2] + s * r[3], r[3]};
 }
 
-// A record from each of its times on; behind the last one what remains.
+// A record from each of its times on; after the last one what remains.
 std::vector<Numbers> course_of(const Record& record) {
   const std::vector<double>&t = record.time, &y = record.values;
   std::vector<Numbers> course;
@@ -124,7 +124,7 @@ const Record& record_of(const mechanics::Network& network, std::size_t excitatio
   const bool is_force = network.excitations[excitation].kind == ExcitationKind::recorded_force;
   if (is_force != (found->record->of == RecordOf::force))
     throw MechanicsError("record '" + found->record->name + "': " +
-                         (is_force ? "a force acts on a mass, a motion is one of a support"
+                         (is_force ? "a force acts on a mass, but a motion belongs to a support"
                                    : "a support moves, a force acts on a mass"));
   if (found->record->jumps()) {
     const std::string why = why_no_jump(network, network.excitations[excitation].node);
@@ -267,15 +267,14 @@ std::string why_no_spline(const Record& record) {
   }
   if (strays <= kStrays * (most - least)) return "";
   std::ostringstream text;
-  text
-      << "the cubic spline through its samples goes to " << extreme << " at " << when << " s, between sample "
-      << worst + 1 << " (" << y[worst] << " at " << t[worst] << " s) and sample " << worst + 2 << " ("
-      << y[worst + 1] << " at " << t[worst + 1]
-      << " s), and leaves the range of the four samples about it by more than a quarter of the record's "
-         "range, "
-      << least << " to " << most
-      << ": it is not what they mean; interpolation = \"linear\" draws straight lines from sample to sample, "
-         "more samples where the motion turns keep the spline near it";
+  text << "the cubic spline through its samples goes to " << extreme << " at " << when
+       << " s, between sample " << worst + 1 << " (" << y[worst] << " at " << t[worst] << " s) and sample "
+       << worst + 2 << " (" << y[worst + 1] << " at " << t[worst + 1]
+       << " s), and leaves the range of the four samples around it by more than a quarter of the record's "
+          "range, "
+       << least << " to " << most
+       << ": it does not represent them; use interpolation = \"linear\" for straight lines from sample to "
+          "sample, or more samples where the motion turns";
   return text.str();
 }
 

@@ -24,13 +24,13 @@ class RecordCourse {
   // All times of all records [s], ascending.
   const std::vector<double>& times() const { return times_; }
   // The four numbers of each record (LinearSystem::recorded_force) from times()[i] on, until the next; from
-  // the last time on, behind it. Before its first time a record is 0.
+  // the last time on, after it. Before its first time a record is 0.
   const Eigen::VectorXd& numbers(std::size_t i) const { return numbers_[i]; }
   // Whether the velocity of a support jumps at times()[i].
   bool jumps_at(std::size_t i) const { return jumps_[i] != 0; }
-  // Of each number, the largest (LinearSystem::recorded_size).
+  // For each number, the largest (LinearSystem::recorded_size).
   const Eigen::VectorXd& sizes() const { return sizes_; }
-  // Between one time and the next [s], where all are alike but for rounding; else 0.
+  // Between one time and the next [s], where all are equal apart from rounding; otherwise 0.
   double interval() const { return interval_; }
   // Sizes and interval (LinearSystem::recorded_size, recorded_interval).
   void tell(mechanics::LinearSystem& system) const;
@@ -47,7 +47,7 @@ class RecordCourse {
   double interval_ = 0.0;
 };
 
-// Whether the motion is known behind the record's end: its support rests there, or the record is a force or
+// Whether the motion is known after the record's end: its support rests there, or the record is a force or
 // an acceleration.
 bool is_known_behind(const Record& record);
 

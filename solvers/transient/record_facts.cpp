@@ -38,7 +38,7 @@ void find_peak_of_spline(const Record& record, RecordFacts& facts) {
   }
 }
 
-// Of straight lines from sample to sample, over an interval h:
+// For straight lines from sample to sample, over an interval h:
 //   acceleration  v += h (a0 + a1)/2,   y += h v0 + h^2 (2 a0 + a1)/6
 //   velocity      y += h (v0 + v1)/2
 void integrate(const Record& record, RecordFacts& facts) {

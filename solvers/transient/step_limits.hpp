@@ -8,7 +8,7 @@ namespace frahm::transient {
 // A number of steps without the rounding of the times between which they lie, where it is whole but for that.
 inline double without_rounding(double steps) {
   constexpr double kRounding =
-      1e-10;  // of a step; times are rounded to some 1e-14 of the last, steps a thousandth
+      1e-10;  // of a step; times are rounded to about 1e-14 of the last, steps a thousandth
   const double whole = std::round(steps);
   return whole > 0.0 && std::abs(steps - whole) <= kRounding ? whole : steps;
 }

@@ -112,7 +112,6 @@ void Trajectory::start(const InitialState& initial) {
   set(initial.velocity, n, eq.step, "velocity");
   deceleration_.setZero(eq.contacts());
   acceleration_.setZero(n);
-  for (std::size_t i = 0; i < turning_points_.size(); ++i) first_displacements_.push_back(displacement(i));
   account_.open(energy_now());
 }
 

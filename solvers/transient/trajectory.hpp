@@ -13,7 +13,7 @@ namespace frahm::transient {
 
 using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
 
-// What is kept of a motion beside its stops; the rest costs nothing.
+// What is kept of a motion in addition to its stops; the rest costs nothing.
 struct Kept {
   bool extrema = true;                         // the turning points of each mass and signal
   EnergyDetail energies = EnergyDetail::each;  // the energy budget
@@ -37,8 +37,8 @@ class Trajectory {
   void set_forcing(const mechanics::LinearSystem& system, double phase);
 
   // The numbers of the records now, at this phase, from which on they are polynomials
-  // (RecordCourse::numbers). jumps: the velocity of a support jumps, and who sticks and slides is found anew;
-  // the masses keep their velocities.
+  // (RecordCourse::numbers). jumps: the velocity of a support jumps, and who sticks and slides is found
+  // again; the masses keep their velocities.
   void set_recorded(const Eigen::VectorXd& numbers, double phase, bool jumps = false);
 
   // The excitation's frequency now, and how fast it rises [rad/s], [rad/s^2]; the forcing has one for a
@@ -64,9 +64,8 @@ class Trajectory {
   double time() const { return time_; }                   // [s]
   double step() const { return flow_.equations().step; }  // [s]
 
-  // Of a mass or signal (mechanics/coordinates.hpp) now and at the start [m].
+  // For a mass or signal (mechanics/coordinates.hpp) now [m].
   double displacement(std::size_t coordinate) const;
-  double first_displacement(std::size_t coordinate) const { return first_displacements_[coordinate]; }
   double energy_norm() const { return flow_.equations().energy_norm(z_); }  // [sqrt(J)]
   // The energy norm of the state's distance from where its mode would come to rest [sqrt(J)].
   double distance_from_rest() const;
@@ -138,7 +137,6 @@ class Trajectory {
   periodic::Forms<Eigen::Dynamic, Eigen::Dynamic> forms_;
   std::vector<mechanics::Incidence> signals_;
   std::vector<TurningPoints> turning_points_;  // of each coordinate
-  std::vector<double> first_displacements_;    // of each coordinate [m]
   std::vector<std::vector<Stop>> stops_;
   std::vector<std::vector<Touch>> touches_;
   std::size_t next_sample_ = 0;

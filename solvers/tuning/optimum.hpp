@@ -30,7 +30,7 @@ struct TunedParameter {
   std::vector<AtBound> at_bound;
   std::vector<double> lower_multiplier,
       upper_multiplier;  // fall of the objective per unit by which the bound is moved outwards, >= 0
-  // Of a schedule: where its values hold; with a leap both its sides among them.
+  // For a schedule: where its values hold; with a leap both its sides among them.
   std::vector<double> knots = {};
 };
 
@@ -87,13 +87,13 @@ struct Optimum {
   std::vector<TunedParameter> parameters;  // Task::parameters order
   double objective = 0.0;  // true: worst peak found over the whole band; mean square; variance
   double certificate_gap =
-      0.0;  // (objective - bound) / objective: what no active frequency has seen; minimax only, else NaN
+      0.0;  // (objective - bound) / objective: what no active frequency has seen; minimax only, otherwise NaN
   double kkt_residual = 0.0;  // relative; of the problem over the active frequencies
   double violation = 0.0;     // largest, of the limits, relative; 0 within the tolerance
   // No schedule with these constants is lower, if the response has no valley between neighbouring levels of
   // the grid that this was found on (schedules/, path_bound); NaN: not known.
   double path_bound = kNone;
-  double constant_objective = 0.0;  // of the best constant design, where a parameter is scheduled, else NaN
+  double constant_objective = 0.0;  // of the best constant design; NaN without a schedule
   std::vector<double> constant;     // that design, Task::parameters order; empty where nothing is scheduled
   std::vector<Peak> peaks;          // ascending in scenario, then frequency
   std::vector<LimitState> limits;   // Task::limits order, then the trade-off's

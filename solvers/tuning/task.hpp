@@ -105,7 +105,8 @@ struct Task {
   std::vector<QuantityLimit> limits;
   std::optional<TradeOff> trade_off;
   Noise noise;  // of Objective::variance
-  // Of a network that may have several responses, in a minimax: at each frequency the worst one found counts.
+  // For a network that may have several responses, in a minimax: at each frequency the worst one found
+  // counts.
   periodic::OrbitsWanted orbits;
   // Scheduled parameters only: at no frequency may the response exceed that of the best constant design.
   bool dominate_constant = false;

@@ -11,7 +11,7 @@
 #include "solvers/identification/hysteresis_loop.hpp"
 #include "solvers/identification/log_decrement.hpp"
 #include "solvers/identification/resonance_magnification.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -110,8 +110,7 @@ Identification energy_balance_of(const RecordChoice& record) {
 Identification hysteresis_loop_of(const RecordChoice& record) {
   return identification::hysteresis_loop({.time = column(record, "time"),
                                           .displacement = column(record, "displacement"),
-                                          .force = column(record, "force")},
-                                         std::nullopt);
+                                          .force = column(record, "force")});
 }
 
 // The natural frequency of each record by its free decay, unless a table gives them.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solvers/identification/grey_box.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // The grey box of one mass started by Liang and Feeny.
 namespace frahm::studies {

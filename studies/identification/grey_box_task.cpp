@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "studies/reading/settings.hpp"
+#include "studies/identification/grey_box_task.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/study/study_values.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -137,7 +139,7 @@ identification::GreyBoxTask grey_box_task(const Study& study) {
   task.model_at = model_at(study);
   for (const IdentifiedParameter& fitted : choice.parameters) {
     task.parameters.push_back({.name = study.parameters.list[fitted.parameter].name,
-                               .unit = recorded_unit(study, fitted.parameter),
+                               .unit = unit_in_file(study, fitted.parameter),
                                .start = nominal[fitted.parameter],
                                .lower = fitted.lower,
                                .upper = fitted.upper,
@@ -149,7 +151,7 @@ identification::GreyBoxTask grey_box_task(const Study& study) {
     const auto row = static_cast<std::size_t>(i);
     const FixedEstimate& estimate = choice.fixed[row];
     task.fixed.push_back({.name = study.parameters.list[estimate.parameter].name,
-                          .unit = recorded_unit(study, estimate.parameter),
+                          .unit = unit_in_file(study, estimate.parameter),
                           .value = estimate.value,
                           .degrees_of_freedom = estimate.degrees_of_freedom});
     for (Eigen::Index j = 0; j < fixed; ++j)

@@ -6,7 +6,7 @@
 
 #include "solvers/identification/identification.hpp"
 #include "solvers/transient/motion.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // A study of kind "identify": the solver's answer to it.
 namespace frahm::studies {

@@ -6,19 +6,20 @@
 #include <cmath>
 #include <ostream>
 
-#include "studies/identification/identification_record.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/identification/identification_columns.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {
 
 using identification::Estimate, identification::FittedRecord, identification::Identification;
 
-constexpr std::size_t most_correlations = 12;  // columns that still fit beside one another
+constexpr std::size_t most_correlations = 12;  // columns that still fit next to one another
 constexpr std::size_t most_rows = 30;
 
-// An estimate in the study's unit of the parameter of the same name, else SI.
+// An estimate in the study's unit of the parameter of the same name, otherwise SI.
 struct Spoken {
   double factor = 1.0;  // SI value = factor x value
   std::string unit;
@@ -42,7 +43,7 @@ std::string number(double value, double factor) {
 std::string remark_of(const Study& study, const Estimate& estimate) {
   if (std::isinf(estimate.high)) return "  the data do not determine it";
   for (const FixedEstimate& fixed : study.identify()->fixed) {
-    if (study.parameters.list[fixed.parameter].name == estimate.name) return "  as found before";
+    if (study.parameters.list[fixed.parameter].name == estimate.name) return "  as identified before";
   }
   return "";
 }
@@ -96,7 +97,7 @@ void print_rows(const Study& study, const Identification& found, std::ostream& o
   fmt::print(out, "\n{}", rows > most_rows ? fmt::format("and {} more\n", rows - most_rows) : "");
 }
 
-// " N s/m": the unit of a parameter behind its value.
+// " N s/m": the unit of a parameter after its value.
 std::string behind(const Study& study, std::size_t parameter) {
   const std::string unit = spoken_value(study, parameter, 1.0).unit;
   return unit.empty() ? "" : " " + unit;
@@ -119,7 +120,7 @@ void print_identification_choice(const Study& study, std::ostream& out) {
     const std::size_t rows = record.columns.front().values.size();
     fmt::print(out, "{:<21} {} rows of {}{}{}\n", "record " + record.name, rows, fmt::join(roles, ", "),
                choice.method == IdentifyMethod::grey_box ? ", " + motion_word(record.motion) : "",
-               record.doubtful == 0 ? "" : fmt::format(", {} doubtful left out", record.doubtful));
+               record.doubtful == 0 ? "" : fmt::format(", {} doubtful rows left out", record.doubtful));
   }
   for (const IdentifiedParameter& fitted : choice.parameters) {
     const std::string& name = study.parameters.list[fitted.parameter].name;
@@ -133,7 +134,7 @@ void print_identification_choice(const Study& study, std::ostream& out) {
                fitted.each_record ? ", each record its own" : "");
   }
   for (const FixedEstimate& fixed : choice.fixed)
-    fmt::print(out, "{:<22}{:.8g}{} as found before\n", study.parameters.list[fixed.parameter].name,
+    fmt::print(out, "{:<22}{:.8g}{} as identified before\n", study.parameters.list[fixed.parameter].name,
                fixed.value / usual_unit(study, fixed.parameter).si_factor, behind(study, fixed.parameter));
 }
 
@@ -142,7 +143,7 @@ void print_identification(const Study& study, const IdentificationResult& result
   if (result.first) {
     fmt::print(out, "\nfirst, by Liang and Feeny from the turning points\n");
     if (!result.first->failure.empty()) {
-      fmt::print(out, "nothing: {}; the fit started from the study's values\n", result.first->failure);
+      fmt::print(out, "nothing: {}; the fit started from the values of the study\n", result.first->failure);
     }
     print_estimates(study, *result.first, out);
     fmt::print(out, "\nthen, by least squares over all samples ({} iterations)\n", result.fit.iterations);

@@ -9,12 +9,15 @@
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/modes.hpp"
-#include "studies/identification/identification_record.hpp"
-#include "studies/motion/motion_record.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/toml_building.hpp"
-#include "studies/reading/toml_writing.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/identification/identification_columns.hpp"
+#include "studies/identification/identified_study.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/provenance/stored_study.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -145,10 +148,10 @@ void drive(const Study& study, const mechanics::NetworkValues& values, const std
 void make_motion(const Stored& stored, TomlTable& root) {
   const std::vector<double> time = stored.column(stored.study.identify()->records.front().name + "_time");
   if (time.size() < 2)
-    throw StudyError(rules::wrong_dependence,
-                     "{}: the excitation's frequency is computed from parameters, so that there is no "
-                     "axis to sweep",
-                     stored.name);
+    throw StudyError(
+        rules::wrong_dependence,
+        "{}: the excitation's frequency is computed from parameters, so there is no axis to sweep",
+        stored.name);
   set_kind(root, StudyKind::transient);
   root.push_back({"transient",
                   {},
@@ -191,9 +194,9 @@ std::string study_of_one_mass(const Stored& stored) {
   const double zeta = stored.value("damping_ratio");
   if (std::isnan(zeta)) {
     throw StudyError(rules::not_computed,
-                     "{}: the method {} finds no damping ratio of one mass; describe the system in the study "
-                     "([[mass]], [[element]]) and name in [[identify.parameter]] which estimate each of its "
-                     "parameters takes",
+                     "{}: the method {} does not find the damping ratio of one mass; describe the system in "
+                     "the study ([[mass]], [[element]]) and name in [[identify.parameter]] the estimate that "
+                     "each of its parameters takes",
                      stored.name, method_name(choice.method));
   }
   double mass = choice.mass ? stated(study, *choice.mass) : stored.value("mass");
@@ -207,7 +210,7 @@ std::string study_of_one_mass(const Stored& stored) {
   const double x_f = stored.value("friction_displacement"),
                F = std::max(0.0, std::isnan(x_f) ? 0.0 : k * x_f);
   const double P =
-      F > 0.0 ? 4.0 * F : k * 1e-3;  // well above friction; else a millimetre of static displacement
+      F > 0.0 ? 4.0 * F : k * 1e-3;  // well above friction; otherwise a millimetre of static displacement
   return fmt::format(R"([study]
 schema = 1
 kind = "sweep"
@@ -264,7 +267,7 @@ std::string identified_study(const std::filesystem::path& file) {
   const Stored stored = read(file);
   const std::string outcome = stored.value("outcome") == converged_outcome
                                   ? ""
-                                  : "# The fit did not converge: these are the best values it met.\n";
+                                  : "# The fit did not converge: these are the best values it found.\n";
   const std::string study =
       stored.study.network.masses.empty() ? study_of_one_mass(stored) : study_of_system(stored);
   return std::string(identified_mark) + "\n" + outcome + study;

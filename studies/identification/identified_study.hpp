@@ -7,7 +7,7 @@ namespace frahm::studies {
 
 // The first line of each such study.
 inline constexpr const char* identified_mark =
-    "# Made by frahm export from an identification: its estimates stand in it.";
+    "# Made by frahm export from an identification, whose estimates it contains.";
 
 // A study with the estimates of an identification's file, ready to run, to sweep and to tune:
 // - the study's own system, its parameters at their estimates, swept over its modes: under its excitation, or

@@ -9,7 +9,8 @@
 #include "studies/identification/free_decay_start.hpp"
 #include "studies/identification/grey_box_task.hpp"
 #include "studies/identification/identification_result.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -42,12 +43,11 @@ void name_parameters(const Study& study, Identification& fit) {
     };
     if (place == names.end()) throw std::logic_error("no estimate " + parameter.estimate);
     if (std::find(names.begin(), names.end(), own) != names.end())
-      fail(rules::name_taken,
-           fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
-                       method_name(study.identify()->method)));
+      fail(rules::name_taken, fmt::format("an estimate of the method {} has this name; rename the parameter",
+                                          method_name(study.identify()->method)));
     const auto taken = static_cast<std::size_t>(place - names.begin());
     identification::Estimate alias = fit.estimates[taken];
-    const std::string unit = recorded_unit(study, parameter.parameter);
+    const std::string unit = unit_in_file(study, parameter.parameter);
     if (unit != "1" && unit != alias.unit)
       fail(rules::two_units,
            fmt::format("is in {}, and the estimate \"{}\" in {}", unit, parameter.estimate, alias.unit));

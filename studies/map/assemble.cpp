@@ -9,14 +9,14 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
-#include "studies/map/branch_record.hpp"
+#include "studies/map/branch_group.hpp"
+#include "studies/map/entry_check.hpp"
 #include "studies/map/first_modes.hpp"
-#include "studies/map/record_check.hpp"
-#include "studies/map/statistics_record.hpp"
-#include "studies/map/tile_record.hpp"
-#include "studies/map/tornado_record.hpp"
-#include "studies/record/array_tasks.hpp"
-#include "studies/record/assembly_stage.hpp"
+#include "studies/map/statistics_group.hpp"
+#include "studies/map/tile_entry.hpp"
+#include "studies/map/tornado_group.hpp"
+#include "studies/provenance/array_tasks.hpp"
+#include "studies/provenance/assembly_stage.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -97,13 +97,12 @@ class ChunkMaking {
  private:
   void put(std::uint64_t tile, const MapBox& box, MadeChunk& made) {
     const std::uint64_t points = box.points();
-    decode(reader_.read(tile, bytes_), points * plan_.variables.size(), record_);
+    decode(reader_.read(tile, bytes_), points * plan_.variables.size(), entry_);
     for (std::size_t q = 0; q < plan_.variables.size(); ++q)
-      chunk_.put(q, {box.start, box.count}, std::span(record_.values).subspan(q * points, points));
-    for (const FailedPoint& point : record_.failed) made.failures.add(box, point);
-    if (!record_.borders) return;
-    for (const Border& border : *record_.borders)
-      made.borders.push_back(border_row(plan_.study, box, border));
+      chunk_.put(q, {box.start, box.count}, std::span(entry_.values).subspan(q * points, points));
+    for (const FailedPoint& point : entry_.failed) made.failures.add(box, point);
+    if (!entry_.borders) return;
+    for (const Border& border : *entry_.borders) made.borders.push_back(border_row(plan_.study, box, border));
   }
 
   const MapPlan& plan_;
@@ -111,7 +110,7 @@ class ChunkMaking {
   engine::TileReader& reader_;
   results::MapChunk chunk_;
   engine::Bytes bytes_;
-  TileRecord record_;
+  TileEntry entry_;
 };
 
 // Writes the map and its borders. Returns the points that failed.
@@ -145,9 +144,9 @@ Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const 
 engine::TileIndex read_logs(const MapPlan& plan, const AssemblyOptions& options) {
   StageProgress progress("reading", plan.grid.points(), options.progress);
   return engine::index_tiles(options.logs, plan.log_header(),
-                             [&](std::uint64_t tile, std::span<const std::byte> record) {
+                             [&](std::uint64_t tile, std::span<const std::byte> entry) {
                                if (options.stop_asked()) throw AssemblyStopped{};
-                               check_record(plan, tile, record);
+                               check_entry(plan, tile, entry);
                                progress.add(plan.grid.box(tile).points());
                              });
 }
@@ -156,13 +155,13 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
                  std::uint64_t tiles) {
   if (missing.empty() || options.partial) return;
   throw engine::IoError(options.output, fmt::format("{} of its {} tiles are in no shard log yet (the first "
-                                                    "is tile {}){}; --partial makes a file of the rest",
+                                                    "is tile {}){}; --partial makes a file of the others",
                                                     missing.size(), tiles, missing.front(),
                                                     missing_tasks_text(options.logs, missing)));
 }
 
 // Makes the complete file at its final path.
-Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
+Assembly make_file(const MapPlan& plan, const RunFacts& run, const AssemblyOptions& options) {
   const engine::TileIndex index = read_logs(plan, options);
   const auto missing = engine::missing_tiles(index);
   refuse_gaps(options, missing, index.places.size());
@@ -190,7 +189,7 @@ Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOpti
 
 }  // namespace
 
-Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options,
+Assembly assemble(const MapPlan& plan, const RunFacts& run, const AssemblyOptions& options,
                   const engine::OutputLock&) {
   try {
     const Assembly assembly = make_file(plan, run, options);

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "engine/output_lock.hpp"
+#include "studies/map/map_groups.hpp"
 #include "studies/map/map_plan.hpp"
-#include "studies/map/map_record.hpp"
-#include "studies/record/assembly_options.hpp"
+#include "studies/provenance/assembly_options.hpp"
 
 namespace frahm::studies {
 
@@ -22,7 +22,7 @@ struct Assembly {
 // thread, and 16 bytes a tile.
 // held: the lock of the output.  Throws engine::ResumeRefused for logs of another study, engine::IoError for
 // tiles that are missing or damaged, results::StoreError.
-Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options,
+Assembly assemble(const MapPlan& plan, const RunFacts& run, const AssemblyOptions& options,
                   const engine::OutputLock& held);
 
 }  // namespace frahm::studies

@@ -8,7 +8,7 @@
 #include "studies/map/grid.hpp"
 #include "studies/map/regime_crossings.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/map/tile_record.hpp"
+#include "studies/map/tile_entry.hpp"
 
 namespace frahm::studies {
 

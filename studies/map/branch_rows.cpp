@@ -95,9 +95,9 @@ std::vector<periodic::SearchedPlace> RowBranches::places(const std::vector<std::
     places.push_back(all[point[along]]);
     if (one_response_ || !coexisting_) continue;
     const MapBox box = plan_.grid.box(tile);
-    if (in_hand != tile) decode(reader.read(tile, bytes_), box.points() * plan_.variables.size(), record_);
+    if (in_hand != tile) decode(reader.read(tile, bytes_), box.points() * plan_.variables.size(), entry_);
     in_hand = tile;
-    const double count = record_.values[*coexisting_ * box.points() + box.offset_of(point)];
+    const double count = entry_.values[*coexisting_ * box.points() + box.offset_of(point)];
     places.back().stable = std::max(0, static_cast<int>(count));  // -1: the point failed
   }
   return places;

@@ -7,7 +7,7 @@
 #include "engine/tile_index.hpp"
 #include "solvers/branches/coexisting_branches.hpp"
 #include "studies/map/map_plan.hpp"
-#include "studies/map/tile_record.hpp"
+#include "studies/map/tile_entry.hpp"
 
 // The rows of a map through which branches are followed ([output] branches).
 namespace frahm::studies {
@@ -44,7 +44,7 @@ class RowBranches {
   std::optional<std::size_t> coexisting_;  // the index of this quantity in the record
   bool one_response_;
   engine::Bytes bytes_;
-  TileRecord record_;
+  TileEntry entry_;
 };
 
 // The quantities of the study that the points of a branch have: all but those of the search in a map.

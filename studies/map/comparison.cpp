@@ -18,9 +18,9 @@ using periodic::QuantityDescription;
 std::string shown_text(periodic::OrbitsWanted::Show show) {
   switch (show) {
     case periodic::OrbitsWanted::Show::largest:
-      return "of the largest response found";
+      return "for the largest response found";
     case periodic::OrbitsWanted::Show::smallest:
-      return "of the smallest response found";
+      return "for the smallest response found";
     case periodic::OrbitsWanted::Show::up:
       return "as the frequency rises";
     case periodic::OrbitsWanted::Show::down:

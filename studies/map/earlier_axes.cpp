@@ -9,8 +9,9 @@
 #include <set>
 
 #include "results/store_error.hpp"
+#include "studies/map/earlier_axes.hpp"
 #include "studies/map/value_match.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/quantities/units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -73,7 +74,7 @@ std::vector<CommonParameter> parameters_on(const Study& study, const results::Ax
       fail(file, fmt::format("axis \"{}\": {}", parameter.name, error.what()));
     }
   }
-  if (found.empty()) fail(file, fmt::format("its axis \"{}\" is none of this study's", earlier.name));
+  if (found.empty()) fail(file, fmt::format("its axis \"{}\" is not an axis of this study", earlier.name));
   return found;
 }
 
@@ -87,8 +88,8 @@ std::size_t common_dimension(const Study& study, const std::vector<CommonParamet
     };
     if (std::ranges::all_of(parameters, is_here)) return d;
   }
-  fail(file, fmt::format("the parameters of its dimension \"{}\" advance together there and have dimensions "
-                         "of their own here, so that its points cannot be found on this grid",
+  fail(file, fmt::format("the parameters of its dimension \"{}\" advance together there but have dimensions "
+                         "of their own here, so its points cannot be found on this grid",
                          earlier));
 }
 
@@ -126,7 +127,7 @@ EarlierDimension match(const Study& study, const results::Axis& earlier, const U
     dimension.index.push_back(found == index_of.end() ? EarlierDimension::nowhere : found->second);
   }
   if (!any)
-    fail(file, fmt::format("\"{}\" has no value in common with this study's: there is no point to take over",
+    fail(file, fmt::format("\"{}\" has no value in common with this study's: there is no point to reuse",
                            earlier.name));
   return dimension;
 }

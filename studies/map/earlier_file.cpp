@@ -8,8 +8,9 @@
 #include <string_view>
 
 #include "engine/io_error.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/map/earlier_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -34,11 +35,16 @@ void check_is_hdf5(const std::filesystem::path& path) {
 
 std::string_view words_of(ResultKind kind) {
   switch (kind) {
-    case ResultKind::map: return "a map";
-    case ResultKind::branch: return "a branch";
-    case ResultKind::tuning: return "a tuning";
-    case ResultKind::identification: return "an identification";
-    case ResultKind::motion: break;
+    case ResultKind::map:
+      return "a map";
+    case ResultKind::branch:
+      return "a branch";
+    case ResultKind::tuning:
+      return "a tuning";
+    case ResultKind::identification:
+      return "an identification";
+    case ResultKind::motion:
+      break;
   }
   return "one motion";
 }
@@ -50,7 +56,7 @@ results::MapReader open_earlier_map(const std::filesystem::path& file) {
   results::MapReader result(file);
   const ResultKind kind = kind_of(result);
   if (kind == ResultKind::map) return result;
-  throw StudyError(rules::wrong_option, "--from {}: is {}, not a map: there is no point to take over",
+  throw StudyError(rules::wrong_option, "--from {}: is {}, not a map: there is no point to reuse",
                    file.string(), words_of(kind));
 }
 

@@ -6,9 +6,10 @@
 #include <algorithm>
 
 #include "solvers/mechanics/modes.hpp"
+#include "studies/map/first_modes.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/record/group_columns.hpp"
+#include "studies/provenance/group_columns.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -27,7 +28,7 @@ std::vector<results::Column> mode_columns(const Study& study, periodic::LinearMo
   modes.damping.resize(count);
   GroupColumns columns;
   columns.add_count("mode", "number of the mode", "mode", numbers_from_one(count));
-  const UsualUnit unit = recorded_frequency_unit(study);
+  const UsualUnit unit = frequency_unit_in_file(study);
   for (double& frequency : modes.frequency) frequency /= unit.si_factor;
   columns.add("mode_frequency", unit.text, "undamped natural frequency with all friction sliding", "mode",
               modes.frequency);

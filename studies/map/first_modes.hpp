@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/map_writer.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

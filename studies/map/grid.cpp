@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "studies/map/grid.hpp"
 #include "studies/map/motion_cost.hpp"
 #include "studies/map/orbit_cost.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -43,7 +44,7 @@ std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
 }
 
 // A tile is some tenths of a second of work at most, so that all threads have some, progress moves and a stop
-// is obeyed soon; of dear points up to a second's, as each orbit starts the search for the next.
+// is obeyed soon; of expensive points up to a second's, as each orbit starts the search for the next.
 // Rows that are swept are never cut.
 TileSizes sizes_of(const Study& study) {
   constexpr double kMostSeconds = 0.25, kFewestPoints = 4.0;

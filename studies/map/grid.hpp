@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // The points of a map and its tiles: groups of points computed and saved as a whole. Both depend on the study
 // alone, never on who computes them.

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
-// Significant bits (of 52 behind the first) that a record keeps: what lies below the error bound of a point
+// Significant bits (of 52 after the first) that a record keeps: what lies below the error bound of a point
 // is noise that takes space and time. A residual, an error bound or an energy balance says an order of
 // magnitude.
 inline constexpr int most_bits = 48, least_bits = 40, diagnostic_bits = 10;
@@ -35,7 +35,7 @@ class KnownDigits {
   std::size_t error_bound_;         // its index; their number: there is none
 };
 
-// x to this many bits behind the first, to the nearest.
+// x to this many bits after the first, to the nearest.
 double rounded(double x, int bits);
 
 }  // namespace frahm::studies

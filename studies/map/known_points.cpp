@@ -14,10 +14,10 @@
 #include "results/store_error.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/earlier_file.hpp"
-#include "studies/map/record_check.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/map/entry_check.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -29,10 +29,10 @@ void refuse_another_physics(const MapPlan& plan, const results::MapReader& earli
   const engine::Fingerprint kept = fingerprint_of(earlier);
   if (kept.physics == plan.fingerprint.physics) return;
   throw engine::ResumeRefused(file, kept, plan.fingerprint,
-                              "none of its points can be taken over; leave --from out to compute them all");
+                              "none of its points can be reused; leave out --from to compute them all");
 }
 
-// Samples of a file that is no longer beside the result leave nothing to compare with.
+// Samples of a file that is no longer next to the result leave nothing to compare with.
 void refuse_other_axes_than_stored(const results::MapReader& earlier, const std::filesystem::path& file,
                                    const std::string& advice) {
   std::optional<StoredStudy> stored;
@@ -103,7 +103,7 @@ void KnownPoints::take(const MapBox& box, std::span<double> values, std::vector<
 }
 
 void KnownPoints::check(std::uint64_t first, std::uint64_t step) {
-  constexpr const char* advice = "without --from all points are computed anew";
+  constexpr const char* advice = "without --from all points are computed again";
   refuse_damage(reader_, advice);
   refuse_other_axes_than_stored(reader_, file_, advice);
   std::vector<double> values;
@@ -163,17 +163,17 @@ void KnownPoints::check_possible(std::size_t variable, double value, const Found
   throw results::StoreError(
       fmt::format("{}:/{}[{}]", file_.string(), description.name,
                   fmt::join(index_of(point.offset, reader_.layout()), ",")),
-      fmt::format("{} is {}, so its points cannot be taken over", value,
-                  description.kind == QuantityKind::flag ? "none of its flags" : "no count"),
-      "without --from all points are computed anew");
+      fmt::format("{} is {}, so its points cannot be reused", value,
+                  description.kind == QuantityKind::flag ? "not one of its flags" : "no count"),
+      "without --from all points are computed again");
 }
 
 std::vector<double> KnownPoints::read_variable(std::size_t variable, const MapBox& box) const {
   try {
     return reader_.read(variable, box.start, box.count);
   } catch (const results::StoreError& error) {
-    throw results::StoreError(error.what(), "so its points cannot be taken over",
-                              "without --from all points are computed anew");
+    throw results::StoreError(error.what(), "so its points cannot be reused",
+                              "without --from all points are computed again");
   }
 }
 

@@ -26,7 +26,7 @@ class KnownPoints {
   // result of another system, StudyError where no point can be common, results::StoreError.
   KnownPoints(const MapPlan& plan, const std::filesystem::path& file);
 
-  // Writes the values of the tile's known points to `values` (of a TileRecord) and marks these points in
+  // Writes the values of the tile's known points to `values` (of a TileEntry) and marks these points in
   // `known`, which has an entry for each point of the box.  Throws results::StoreError for damaged data.
   void take(const MapBox& box, std::span<double> values, std::vector<char>& known);
 

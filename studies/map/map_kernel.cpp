@@ -13,7 +13,7 @@ namespace frahm::studies {
 namespace {
 
 // The quantities of the study's own response: those recorded, then others that are compared, and by which
-// they are told from nothing.
+// they are distinguished from nothing.
 std::vector<periodic::Quantity> asked_for(const Study& study, std::vector<periodic::Quantity> quantities) {
   if (!study.sweep()->comparison) return quantities;
   const auto ask = [&](const periodic::Quantity& quantity) {
@@ -84,10 +84,10 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
     compute_row(box);
   } while (next_point(box, rows, index_));
   if (border_search_) {
-    tile_.record.borders.emplace();
-    border_search_->find(box, regimes_of_tile(), *tile_.record.borders);
+    tile_.entry.borders.emplace();
+    border_search_->find(box, regimes_of_tile(), *tile_.entry.borders);
   }
-  encode(tile_.record, out);
+  encode(tile_.entry, out);
 }
 
 // Those of the tile as recorded, if all of it was computed here and all are recorded.

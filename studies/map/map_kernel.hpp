@@ -11,7 +11,7 @@
 #include "studies/map/grid.hpp"
 #include "studies/map/open_tile.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
@@ -30,7 +30,7 @@ class MapKernel {
   MapKernel(const Study& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
             KnownPoints* earlier = nullptr);
 
-  // Appends the record of a tile (tile_record.hpp) to `out`.
+  // Appends the entry of a tile (tile_entry.hpp) to `out`.
   void operator()(std::uint64_t tile, engine::Bytes& out);
 
  private:
@@ -56,7 +56,7 @@ class MapKernel {
   std::vector<double> parameters_;      // SI
   std::vector<double> point_;           // its variables
   std::vector<double> own_compared_;    // of the study's response, those that are compared
-  std::vector<double> own_sizes_;       // by which they are told from nothing
+  std::vector<double> own_sizes_;       // by which they are distinguished from nothing
 };
 
 }  // namespace frahm::studies

@@ -5,27 +5,26 @@
 #include <memory>
 #include <utility>
 
+#include "studies/map/entry_check.hpp"
 #include "studies/map/known_points.hpp"
 #include "studies/map/map_kernel.hpp"
 #include "studies/map/motion_kernel.hpp"
 #include "studies/map/motion_quantities.hpp"
 #include "studies/map/output_quantities.hpp"
-#include "studies/map/record_check.hpp"
 #include "studies/map/sample_names.hpp"
-#include "studies/map/tile_record.hpp"
-#include "studies/record/fingerprint.hpp"
+#include "studies/map/tile_entry.hpp"
+#include "studies/provenance/fingerprint.hpp"
 
 namespace frahm::studies {
 namespace {
 
-// Who computes or assembles a map keeps track of each tile, in some 24 bytes.
+// Who computes or assembles a map keeps track of each tile, in about 24 bytes.
 void check_tiles(const MapPlan& plan) {
   constexpr std::uint64_t most = std::uint64_t{1} << 24;
   if (plan.tiles <= most) return;
   throw StudyError(
       rules::too_large,
-      "{}: the map of {} points has {} tiles, of which at most {} can be kept track of; divide it into "
-      "several studies",
+      "{}: the map of {} points has {} tiles, but at most {} can be tracked; divide it into several studies",
       plan.study.source.name, plan.grid.points(), plan.tiles, most);
 }
 
@@ -79,11 +78,11 @@ engine::Job job_of(const MapPlan& plan, KnownPoints* earlier) {
               },
           .points = points,
           .failed =
-              [&plan, points](std::uint64_t tile, std::span<const std::byte> record) {
-                return count_failed(record, points(tile) * plan.variables.size());
+              [&plan, points](std::uint64_t tile, std::span<const std::byte> entry) {
+                return count_failed(entry, points(tile) * plan.variables.size());
               },
           .check = [&plan](std::uint64_t tile,
-                           std::span<const std::byte> record) { check_record(plan, tile, record); },
+                           std::span<const std::byte> entry) { check_entry(plan, tile, entry); },
           .reused = [earlier] { return earlier ? earlier->taken() : std::uint64_t{0}; }};
 }
 

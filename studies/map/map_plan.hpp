@@ -7,7 +7,7 @@
 #include "solvers/quantities/quantity.hpp"
 #include "solvers/transient/motion_quantity.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
 namespace frahm::studies {
 

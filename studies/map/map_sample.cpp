@@ -8,8 +8,8 @@
 
 #include "results/chunk_codec.hpp"
 #include "results/storage.hpp"
-#include "studies/map/map_record.hpp"
-#include "studies/map/tile_record.hpp"
+#include "studies/map/map_groups.hpp"
+#include "studies/map/tile_entry.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -56,7 +56,7 @@ class TileSampler {
   std::vector<results::Variable> variables_;
   engine::Kernel kernel_;
   engine::Bytes bytes_;
-  TileRecord record_;
+  TileEntry entry_;
 };
 
 double TileSampler::add(std::uint64_t tile, MapSample& sample) {
@@ -66,7 +66,7 @@ double TileSampler::add(std::uint64_t tile, MapSample& sample) {
   const double seconds = seconds_since(start);
   sample.seconds += seconds;
   const MapBox box = plan_.grid.box(tile);
-  decode(bytes_, box.points() * plan_.variables.size(), record_);
+  decode(bytes_, box.points() * plan_.variables.size(), entry_);
   add_record(box, sample);
   return seconds;
 }
@@ -76,18 +76,18 @@ void TileSampler::add_record(const MapBox& box, MapSample& sample) const {
   sample.points += points;
   const auto start = Clock::now();
   for (std::size_t q = 0; q < variables_.size(); ++q) {
-    const auto values = std::span(record_.values).subspan(q * points, points);
+    const auto values = std::span(entry_.values).subspan(q * points, points);
     const results::Bytes raw = results::to_storage(variables_[q], values);
     sample.raw_bytes += raw.size();
     const auto stored = results::encode_chunk(raw, results::element_size(variables_[q].type)).size();
     sample.stored_bytes += std::min(stored, raw.size());  // of a few numbers it is more
   }
   sample.encoding_seconds += seconds_since(start);
-  if (sample.failed == 0 && !record_.failed.empty()) {
-    sample.failed_at = point_text(plan_.study, index_in(box, record_.failed.front().offset));
-    sample.reason = record_.failed.front().reason;
+  if (sample.failed == 0 && !entry_.failed.empty()) {
+    sample.failed_at = point_text(plan_.study, index_in(box, entry_.failed.front().offset));
+    sample.reason = entry_.failed.front().reason;
   }
-  sample.failed += record_.failed.size();
+  sample.failed += entry_.failed.size();
 }
 
 // The same map with a tile for each point.
@@ -103,7 +103,7 @@ MapPlan in_single_points(const MapPlan& plan) {
 MapSample sample_map(const MapPlan& plan, double seconds) {
   const std::uint64_t tiles = plan.grid.tiles(), stride = spreading_stride(tiles);
   MapSample sample;
-  // Of dear tiles one point alone is computed, and counts for all of its tile.
+  // For expensive tiles one point alone is computed, and counts for all of its tile.
   const MapPlan single = in_single_points(plan);
   TileSampler of_points(single), of_tiles(plan);
   const auto cost_by_point = [&](std::uint64_t tile, std::uint64_t k) {  // the k-th of its points

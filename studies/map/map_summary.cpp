@@ -11,8 +11,9 @@
 #include "solvers/algebra/no_value.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/map/map_chunks.hpp"
-#include "studies/reading/decimal_digits.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/map/map_summary.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/text/decimal_digits.hpp"
 
 namespace frahm::studies {
 namespace {

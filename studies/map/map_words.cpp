@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "studies/map/beside_samples.hpp"
-#include "studies/map/map_record.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/map/map_groups.hpp"
+#include "studies/map/map_words.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -37,7 +39,7 @@ std::optional<OtherUnit> other_unit(const UsualUnit& kept, const UsualUnit& now)
 class MapWords {
  public:
   MapWords(const MapPlan& plan, const Study& kept)
-      : frequency_(other_unit(recorded_frequency_unit(kept), recorded_frequency_unit(plan.study))) {
+      : frequency_(other_unit(frequency_unit_in_file(kept), frequency_unit_in_file(plan.study))) {
     for (const results::Axis& axis : map_layout(plan, {}).axes)
       for (const results::Coordinate& each : axis.coordinates) coordinates_[each.name] = each;
     for (std::size_t p = 0; p < plan.study.parameters.list.size(); ++p) {

@@ -6,7 +6,7 @@
 #include "solvers/flow/equations.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/map/first_modes.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -28,9 +28,9 @@ double predicted_motion_seconds(const Study& study) {
     const transient::ForcedOptions options = forced_options(study, parameters);
     mechanics::LinearSystem system;
     mechanics::Assembly(study.network).set_values(values_at_first_point(study), system);
-    const double fastest = std::max({periodic::fastest_rate(system), options.from, options.sweep.to});
+    const double fastest = std::max({periodic::fastest_rate(system), options.from, options.run_up.to});
     const double steps = options.duration * fastest / periodic::kStepRate;
-    const double runs = options.sweep.rate > 0.0 ? kOfRunUp : 1.0;
+    const double runs = options.run_up.rate > 0.0 ? kOfRunUp : 1.0;
     const double seconds =
         kAtLeast + runs * steps * step_seconds(static_cast<double>(study.network.masses.size()));
     return std::isfinite(seconds) ? seconds : kUnknown;

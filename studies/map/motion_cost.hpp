@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 
 namespace frahm::studies {
 
@@ -24,7 +24,7 @@ void MotionKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
     std::string reason = compute_point();
     tile_.put(offset, values_, std::move(reason));
   } while (next_point(box, plan_.grid.order, index_));
-  encode(tile_.record, out);
+  encode(tile_.entry, out);
 }
 
 std::string MotionKernel::compute_point() {
@@ -53,7 +53,7 @@ std::string MotionKernel::compute_point() {
 // Samples are kept where a run-up is refined until they stand.
 transient::ForcedOptions MotionKernel::options_of_point() const {
   transient::ForcedOptions options = forced_options(plan_.study, parameters_);
-  if (options.sweep.rate == 0.0) options.samples = 0;
+  if (options.run_up.rate == 0.0) options.samples = 0;
   options.quantities = plan_.motion_quantities;
   options.watch = [this] {
     if (stop_asked_ && stop_asked_()) throw engine::GivenUp{};

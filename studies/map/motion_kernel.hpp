@@ -21,7 +21,7 @@ class MotionKernel {
   // earlier: the points it has are not computed; may be null.
   MotionKernel(const MapPlan& plan, engine::StopAsked stop_asked, KnownPoints* earlier = nullptr);
 
-  // Appends the record of a tile (tile_record.hpp) to `out`. Throws engine::GivenUp.
+  // Appends the entry of a tile (tile_entry.hpp) to `out`. Throws engine::GivenUp.
   void operator()(std::uint64_t tile, engine::Bytes& out);
 
  private:
@@ -33,7 +33,7 @@ class MotionKernel {
   engine::StopAsked stop_asked_;
   OpenTile tile_;
 
-  // Of the point in hand.
+  // For the point in hand.
   std::vector<std::uint64_t> index_;
   std::vector<double> parameters_;  // SI
   std::vector<double> values_;      // of the variables

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "studies/map/motion_quantities.hpp"
 #include "studies/map/output_quantities.hpp"
-#include "studies/reading/name_pattern.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -21,7 +22,7 @@ std::vector<MotionQuantity> quantities_called(const Study& study, const OutputCh
   }
   if (!found.empty()) return found;
   throw study.source.error_at(rules::unknown_name, name.position,
-                              "[output]: quantities: there is no \"{}\" of a motion{}", name.text,
+                              "[output]: quantities: a motion has no quantity \"{}\"{}", name.text,
                               hint_of_unmatched(name.text, known));
 }
 
@@ -49,7 +50,7 @@ std::vector<periodic::QuantityDescription> motion_variables(const Study& study,
   std::vector<periodic::QuantityDescription> variables;
   for (const MotionQuantity& quantity : quantities)
     variables.push_back(transient::describe(quantity, study.network, study.dimensionless));
-  check_names_of_record(study, variables);
+  check_names_in_file(study, variables);
   return variables;
 }
 

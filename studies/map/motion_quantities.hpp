@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "solvers/transient/motion_quantity.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -9,10 +9,10 @@ namespace frahm::studies {
 
 void OpenTile::open(const MapBox& box) {
   points_ = box.points();
-  record.values.resize(variables_ * points_);
-  record.failed.clear();
+  entry.values.resize(variables_ * points_);
+  entry.failed.clear();
   if (earlier_) {
-    earlier_->take(box, record.values, known_);
+    earlier_->take(box, entry.values, known_);
   } else {
     known_.assign(points_, 0);
   }
@@ -24,8 +24,8 @@ bool OpenTile::has_known() const {
 
 void OpenTile::put(std::uint64_t offset, std::span<double> values, std::string reason) {
   digits_.round(values);
-  for (std::size_t q = 0; q < variables_; ++q) record.values[q * points_ + offset] = values[q];
-  if (!reason.empty()) record.failed.push_back({offset, std::move(reason)});
+  for (std::size_t q = 0; q < variables_; ++q) entry.values[q * points_ + offset] = values[q];
+  if (!reason.empty()) entry.failed.push_back({offset, std::move(reason)});
 }
 
 }  // namespace frahm::studies

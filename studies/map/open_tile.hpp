@@ -7,7 +7,7 @@
 
 #include "studies/map/grid.hpp"
 #include "studies/map/known_digits.hpp"
-#include "studies/map/tile_record.hpp"
+#include "studies/map/tile_entry.hpp"
 
 namespace frahm::studies {
 
@@ -31,10 +31,10 @@ class OpenTile {
   // values: of the variables; they are rounded.  reason: why the point fails; empty: it does not.
   void put(std::uint64_t offset, std::span<double> values, std::string reason);
   std::span<const double> values_of(std::size_t variable) const {
-    return std::span(record.values).subspan(variable * points_, points_);
+    return std::span(entry.values).subspan(variable * points_, points_);
   }
 
-  TileRecord record;
+  TileEntry entry;
 
  private:
   std::size_t variables_;

@@ -52,10 +52,10 @@ double of_orders(const Study& study, double masses) {
 }
 
 // [s] of the search for several orbits, measured: 0.12 ms a start of one mass with stops, 2 ms of two masses.
-// A sweep and the responses of the points beside count as a start.
+// A sweep and the responses of the neighbouring points count as a start.
 double of_search(const Study& study, const periodic::OrbitsWanted& wanted, double masses) {
   if (!mechanics::may_have_several_responses(study.network)) return 0.0;
-  return 2e-4 * (1.0 + (wanted.is_sweep() ? 0 : wanted.starts)) * std::pow(masses, 3.0);
+  return 2e-4 * (1.0 + (wanted.is_slow_sweep() ? 0 : wanted.starts)) * std::pow(masses, 3.0);
 }
 
 double of_searches(const Study& study, double masses) {

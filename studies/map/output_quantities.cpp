@@ -8,7 +8,8 @@
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
-#include "studies/reading/name_pattern.hpp"
+#include "studies/map/output_quantities.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -44,7 +45,7 @@ std::vector<periodic::Quantity> listed_quantities(const Study& study) {
     for (const periodic::Quantity& quantity : quantities_called(study, name))
       if (std::find(result.begin(), result.end(), quantity) == result.end()) result.push_back(quantity);
   }
-  return periodic::with_always_recorded(std::move(result), study.network);
+  return periodic::with_always_stored(std::move(result), study.network);
 }
 
 // A name in the record chosen by the study, and its position.
@@ -70,7 +71,7 @@ std::map<std::string, Taken> names_of_coordinates(const Study& study) {
   return taken;
 }
 
-// Groups of the file and their contents beside the axes' own parameters.
+// Groups of the file and their contents next to the axes' own parameters.
 std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& study) {
   std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"},
                                                          {"modes", "a group of the file"}};
@@ -81,7 +82,7 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& st
     const bool of_motions = study.transient() != nullptr;
     add(of_motions ? "histories" : "orbits", "a group of the file");
     for (const char* name : {of_motions ? "history" : "orbit", "sample", "row_start", "time"})
-      add(name, of_motions ? "a variable of the histories kept" : "a variable of the orbits kept");
+      add(name, of_motions ? "a variable of the kept histories" : "a variable of the kept orbits");
   }
   if (study.transient()) return names;
   if (study.sweep()->borders) {
@@ -112,10 +113,10 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
   for (const periodic::QuantityDescription& quantity : recorded) names.push_back(quantity.name);
   const auto check = [&](const char* key, const OutputChoice::Name& name) {
     if (std::ranges::any_of(names, [&](const std::string& each) { return matches(name.text, each); })) return;
-    throw study.source.error_at(rules::unknown_name, name.position,
-                                "[report]: {}: \"{}\" is not recorded by this study{}; [output] "
-                                "quantities chooses what is",
-                                key, name.text, hint_of_unmatched(name.text, names));
+    throw study.source.error_at(
+        rules::unknown_name, name.position,
+        "[report]: {}: this study does not record \"{}\"{}; choose it in [output] quantities", key, name.text,
+        hint_of_unmatched(name.text, names));
   };
   for (const OutputChoice::Name& name : study.map()->report_quantities) check("quantities", name);
   if (study.map()->headline) check("headline", *study.map()->headline);
@@ -126,8 +127,8 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
     const std::string peak = name_of(study, {periodic::Measure::peak, mass});
     if (std::find(names.begin(), names.end(), peak) != names.end()) continue;
     throw study.source.error_at(rules::unknown_name, *profile->position,
-                                "[report]: profile: \"{}\", which it shows, is not recorded by this study; "
-                                "[output] quantities chooses what is",
+                                "[report]: profile: it shows \"{}\", which this study does not record; "
+                                "choose it in [output] quantities",
                                 peak);
   }
 }
@@ -160,17 +161,17 @@ std::vector<periodic::QuantityDescription> output_variables(
     const auto compared = compared_variables(study);
     result.insert(result.end(), compared.begin(), compared.end());
   }
-  check_names_of_record(study, result);
+  check_names_in_file(study, result);
   return result;
 }
 
-void check_names_of_record(const Study& study, const std::vector<periodic::QuantityDescription>& variables) {
+void check_names_in_file(const Study& study, const std::vector<periodic::QuantityDescription>& variables) {
   std::map<std::string, Taken> taken = names_of_coordinates(study);
   for (const auto& [name, what] : names_of_groups(study)) {
     const auto other = taken.find(name);
     if (other == taken.end()) continue;
     throw study.source.error_at(rules::name_taken, other->second.position,
-                                "\"{}\" is the name of {} and of {}, which stand in one file; rename it",
+                                "\"{}\" is the name of {} and of {}, which are in the same file; rename it",
                                 name, other->second.what, what);
   }
   for (const auto& variable : variables) {
@@ -178,7 +179,7 @@ void check_names_of_record(const Study& study, const std::vector<periodic::Quant
     if (is_free) continue;
     throw study.source.error_at(
         rules::name_taken, other->second.position,
-        "\"{}\" is the name of {} and of a result ({}), which stand in one file; rename it", variable.name,
+        "\"{}\" is the name of {} and of a result ({}), which are in the same file; rename it", variable.name,
         other->second.what, variable.long_name);
   }
   check_report(study, variables);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
@@ -24,7 +24,7 @@ class RowSolver {
   void add_point(std::span<double> parameters);
   // Solves the row.
   void solve();
-  // Of point i of the row: its quantities; and why it fails, empty if it does not.
+  // For point i of the row: its quantities; and why it fails, empty if it does not.
   std::span<const double> quantities(std::size_t i) const;
   const std::string& reason(std::size_t i) const { return found_[i].reason; }
 
@@ -39,7 +39,7 @@ class RowSolver {
   std::vector<double> missing_;  // of each quantity: its value at a point that failed before it was solved
   periodic::PeriodicResponse response_;
 
-  // Of the row in hand; their memory is used again by the next.
+  // For the row in hand; their memory is used again by the next.
   std::size_t points_ = 0;
   std::vector<mechanics::NetworkValues> numbers_;
   std::vector<periodic::ResponseSummary> found_;

@@ -3,8 +3,8 @@
 #include <set>
 #include <string>
 
-#include "studies/map/statistics_record.hpp"
-#include "studies/map/tornado_record.hpp"
+#include "studies/map/statistics_group.hpp"
+#include "studies/map/tornado_group.hpp"
 
 namespace frahm::studies {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -21,7 +21,7 @@ struct ValueMatch {
 // same if they differ by no more than 2 eps (|v| + n d) of either axis, v the value, n the number of
 // different values on its axis and d the distance to its nearest neighbour: n d is the length of an axis of
 // even steps, and the logarithm of its range times v of one of even ratios.
-// That is some 1e-15 of the parameter, or 1e-9 of a step at most: a response moves by less than the residual
+// That is about 1e-15 of the parameter, or 1e-9 of a step at most: a response moves by less than the residual
 // of its solution, and no value can be taken for its neighbour.
 ValueMatch match_values(std::span<const double> known, std::span<const double> wanted);
 

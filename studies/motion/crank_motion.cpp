@@ -34,8 +34,8 @@ void add_crank(MotionColumns& columns, const std::string& name, double radius, d
     const std::string series = fmt::format("{}_taylor_{}", name, order);
     columns.add(series, "m", fmt::format("its Taylor series in crank over rod, cut at order {}", order),
                 "angle", cut);
-    columns.add(series + "_error", "1", fmt::format("error of that at order {}, relative to l_AC", order),
-                "angle", error);
+    columns.add(series + "_error", "1",
+                fmt::format("error of the series at order {}, relative to l_AC", order), "angle", error);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "results/layout.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "solvers/mechanics/rotation.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -30,9 +30,10 @@ void add_energies(const Study& study, const transient::EnergyBudget& energy, Mot
   columns.add_number("final_energy", "J", "kinetic and potential energy at the end", energy.final);
   if (study.kind() == StudyKind::transient)
     columns.add_number("energy_input", "J", "work of the excitation", energy.input);
-  columns.add_number("energy_balance", "1",
-                     "energy at the start and put in less energy dissipated and at the end, relative",
-                     energy.balance);
+  columns.add_number(
+      "energy_balance", "1",
+      "energy at the start plus energy put in, minus energy dissipated and energy at the end, relative",
+      energy.balance);
 }
 
 void print_energies(const Study& study, const transient::EnergyBudget& energy, std::ostream& out) {

@@ -13,8 +13,9 @@
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
-#include "studies/motion/motion_record.hpp"
-#include "studies/reading/spelling.hpp"
+#include "studies/motion/measurements.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -126,7 +127,7 @@ std::vector<MeasuredColumn> chosen(const Study& study, std::vector<MeasuredColum
                        suggestion(name, known));
     }
     if (std::count(names.begin(), names.end(), name) > 1)
-      throw StudyError(rules::given_twice, "--columns: \"{}\" is asked for twice", name);
+      throw StudyError(rules::given_twice, "--columns: \"{}\" is given twice", name);
     columns.push_back(all[static_cast<std::size_t>(place - known.begin())]);
   }
   return columns;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // Simulated sensor measurements of the motion of a study, to try an experiment before it is made.
 namespace frahm::studies {
@@ -36,7 +36,7 @@ struct Measurements {
   double rate = 0.0;
 };
 
-// Of a decay or transient: <mass>_displacement, <mass>_velocity. Of a periodic response (a sweep or tuning,
+// For a decay or transient: <mass>_displacement, <mass>_velocity. Of a periodic response (a sweep or tuning,
 // at these SI values of all parameters): <mass>_acceleration and <element>_force too.
 // Throws StudyError for an unknown column (the known ones are listed), for a motion that is not computed, and
 // for more than ten million samples.

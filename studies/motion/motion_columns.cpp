@@ -7,7 +7,8 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
-#include "studies/reading/settings.hpp"
+#include "studies/motion/motion_columns.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 
@@ -27,7 +28,7 @@ void MotionColumns::add_number(const std::string& name, std::string_view unit, c
 
 void MotionColumns::add_frequencies(const std::string& name, const std::string& long_name,
                                     const std::string& dimension, std::vector<double> omega) {
-  const UsualUnit unit = recorded_frequency_unit(study_);
+  const UsualUnit unit = frequency_unit_in_file(study_);
   for (double& each : omega) each /= unit.si_factor;
   add(name, unit.text, long_name, dimension, std::move(omega));
 }
@@ -48,11 +49,10 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
     const mechanics::Element& element = study_.network.elements[e];
     if (!mechanics::kind_of(element).dissipates || element.parts == 0) continue;
     const std::string& name = element.name;
-    add(name + "_dissipated", "J", "energy dissipated by " + name + " until then", "time",
-        samples.dissipated[e]);
+    add(name + "_dissipated", "J", "energy dissipated so far by " + name, "time", samples.dissipated[e]);
   }
   if (mechanics::has_structural_damping(study_.network))
-    add("damping_dissipated", "J", "energy dissipated by the damping of the structure until then", "time",
+    add("damping_dissipated", "J", "energy dissipated so far by the damping of the structure", "time",
         samples.dissipated.back());
 }
 

@@ -6,7 +6,7 @@
 
 #include "results/layout.hpp"
 #include "solvers/transient/motion.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

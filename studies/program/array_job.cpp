@@ -63,15 +63,15 @@ void print_array_job(const ArrayJob& job, std::ostream& out) {
     return;
   }
   const std::string output = shell_word(job.study.stem().string() + ".h5");
-  fmt::print(out, "\nAs an array of {} tasks on a cluster (of at most {}){}:\n", tasks, job.most_tasks,
+  fmt::print(out, "\nAs an array of {} tasks on a cluster (at most {}){}:\n", tasks, job.most_tasks,
              job.core_seconds
                  ? fmt::format(", each about {} on one core of this machine",
                                engine::readable_time(*job.core_seconds / static_cast<double>(tasks)))
                  : "");
   fmt::print(out, "  sbatch --array=0-{} --cpus-per-task=1 --wrap {}\n", tasks - 1,
              shell_word(run_of_task(job, output, tasks)));
-  fmt::print(out, "  frahm status {}   # how far it is, and which tasks to submit again\n", output);
-  fmt::print(out, "  frahm merge {}    # one file of all shards\n", output);
+  fmt::print(out, "  frahm status {}   # how far the run is, and which tasks to submit again\n", output);
+  fmt::print(out, "  frahm merge {}    # one file from all shards\n", output);
 }
 
 std::optional<std::uint64_t> max_array_size_in(std::string_view configuration) {

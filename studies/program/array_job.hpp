@@ -30,8 +30,8 @@ void print_array_job(const ArrayJob& job, std::ostream& out);
 // MaxArraySize in what `scontrol show config` prints; nothing if it does not say.
 std::optional<std::uint64_t> max_array_size_in(std::string_view configuration);
 
-// How many tasks one array may have: MaxArraySize of the Slurm that is installed here, else its default of
-// 1001. (An index is below it, so tasks 0 to 1000.)
+// How many tasks one array may have: MaxArraySize of the Slurm that is installed here, otherwise its default
+// of 1001. (An index is below it, so tasks 0 to 1000.)
 std::uint64_t most_array_tasks();
 
 }  // namespace frahm::studies

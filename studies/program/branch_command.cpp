@@ -15,20 +15,24 @@
 #include "results/map_writer.hpp"
 #include "solvers/branches/branch.hpp"
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/map/branch_record.hpp"
+#include "studies/map/branch_group.hpp"
 #include "studies/map/branch_rows.hpp"
 #include "studies/map/output_quantities.hpp"
+#include "studies/program/branch_command.hpp"
 #include "studies/program/branch_table.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/assignment.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/provenance.hpp"
+#include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_reading.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/provenance.hpp"
+#include "studies/reading/study/assignment.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
+#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -41,7 +45,8 @@ std::size_t parameter_along(const Study& study, const std::string& name) {
   }
   if (!study.parameters.list[*found].is_number()) {
     throw StudyError(rules::computed_parameter,
-                     "--along {}: it is computed from others; a branch goes along a number", name);
+                     "--along {}: it is computed from other parameters; a branch needs one that is a number",
+                     name);
   }
   return *found;
 }
@@ -52,7 +57,7 @@ bool is_result(const std::filesystem::path& output) {
 
 void check_options(const Study& study, const BranchCommandOptions& options) {
   if (study.kind() != StudyKind::sweep) {
-    throw StudyError(rules::other_kind, "{}: {} has no branches; they are those of a sweep's responses",
+    throw StudyError(rules::other_kind, "{}: {} has no branches; only the responses of a sweep have them",
                      study.source.name, kind_noun(study.kind()));
   }
   refuse_smooth_laws(study, "a branch");
@@ -61,10 +66,10 @@ void check_options(const Study& study, const BranchCommandOptions& options) {
                      "--output \"-\": the special points go to standard output; name a file");
   }
   if (options.fresh && !(options.output && is_result(*options.output)))
-    throw StudyError(rules::wrong_option, "--fresh: belongs to a result, --output FILE.h5");
+    throw StudyError(rules::wrong_option, "--fresh: it needs a result, --output FILE.h5");
 }
 
-// An end of the range [SI]: as the option says, else that of the parameter's axis.
+// An end of the range [SI]: as the option says, otherwise that of the parameter's axis.
 double end_of_range(const Study& study, std::size_t parameter, const char* option,
                     const std::optional<std::string>& given, bool is_upper) {
   const std::string& name = study.parameters.list[parameter].name;
@@ -74,10 +79,12 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
     const auto [least, most] = std::ranges::minmax_element(axis.si_values);
     return is_upper ? *most : *least;
   }
-  throw StudyError(rules::wrong_option, "--along {}: it is no axis of the study, so give {}", name, option);
+  throw StudyError(rules::wrong_option, "--along {}: it is not an axis of the study, so give {}", name,
+                   option);
 }
 
-// Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.
+// Where the first response is searched [SI]: where --at puts the parameter, otherwise at the start of the
+// range.
 double start_of(const Study& study, std::size_t parameter, const BranchCommandOptions& options, double low,
                 double high) {
   double start = low;
@@ -91,13 +98,13 @@ double start_of(const Study& study, std::size_t parameter, const BranchCommandOp
                    spoken_text(study, parameter, low), spoken_text(study, parameter, high));
 }
 
-// A line that tells how far the branch is, on a terminal.
+// A line that says how far the branch is, on a terminal.
 class Counter {
  public:
   Counter(const Study& study, std::size_t parameter, engine::ProgressStyle style)
       : study_(study), parameter_(parameter), form_(engine::progress_form(style)) {}
   ~Counter() {
-    if (told_) std::cerr << '\r' << std::setw(kWidth) << "" << '\r';
+    if (has_printed_) std::cerr << '\r' << std::setw(kWidth) << "" << '\r';
   }
   void operator()(const periodic::BranchPoint& point) {
     ++points_;
@@ -106,7 +113,7 @@ class Counter {
         form_ == engine::ProgressForm::bar || form_ == engine::ProgressForm::coloured_bar;
     if (!on_terminal || now < next_) return;
     next_ = now + std::chrono::milliseconds(100);
-    told_ = true;
+    has_printed_ = true;
     const SpokenValue value = spoken_value(study_, parameter_, point.parameter);
     const std::string text = fmt::format("{} points, {} = {:.6g} {}", points_,
                                          study_.parameters.list[parameter_].name, value.value, value.unit);
@@ -120,7 +127,7 @@ class Counter {
   std::size_t parameter_;
   engine::ProgressForm form_;
   std::size_t points_ = 0;
-  bool told_ = false;
+  bool has_printed_ = false;
   std::chrono::steady_clock::time_point next_ =
       std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
 };
@@ -147,16 +154,16 @@ void check_place(const BranchCommandOptions& options) {
     check_output_is_not_input(*options.output, options.study);
 }
 
-// Where a branch begins: the axes beside it, what --at gives and the parameter followed, by their names.
+// Where a branch begins: the axes next to it, what --at gives and the parameter followed, by their names.
 // parameters: SI.
 std::string beginning_of(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::span<const double> parameters) {
-  std::vector<std::size_t> told = axis_parameters_beside(study, along);
+  std::vector<std::size_t> named = axis_parameters_beside(study, along);
   for (const std::string& text : options.at)
-    for (const Assignment& each : parse_assignments(study, "--at", text)) told.push_back(each.parameter);
+    for (const Assignment& each : parse_assignments(study, "--at", text)) named.push_back(each.parameter);
   std::map<std::string, std::string> by_name{
       {study.parameters.list[along].name, spoken_text(study, along, parameters[along])}};
-  for (const std::size_t i : told)
+  for (const std::size_t i : named)
     by_name[study.parameters.list[i].name] = spoken_text(study, i, parameters[i]);
   std::vector<std::string> values;
   for (const auto& [name, value] : by_name) values.push_back(fmt::format("{} = {}", name, value));
@@ -187,11 +194,11 @@ std::string exact_course(const Study& study, std::size_t along, std::span<const 
                      wanted.multiple, begin);
 }
 
-// Of the same physics as the map of its study, for other points.  parameters: SI, of the branch.
+// For the same physics as the map of its study, for other points.  parameters: SI, of the branch.
 StudyPlan plan_of_branch(const Study& study, const BranchCommandOptions& options, std::size_t along,
                          std::vector<double> parameters, const periodic::BranchWanted& wanted) {
   const std::vector<periodic::Quantity> recorded = output_quantities(study);
-  const auto variables = output_variables(study, recorded);  // of a comparison too, behind these
+  const auto variables = output_variables(study, recorded);  // of a comparison too, after these
   std::vector<std::string> names;
   for (std::size_t q = 0; q < recorded.size(); ++q) names.push_back(variables[q].name);
   parameters[along] = wanted.start;
@@ -207,9 +214,9 @@ void write_result(const BranchCommandOptions& options, const StudyPlan& plan, st
                   std::span<const double> parameters, const std::vector<periodic::Quantity>& quantities,
                   const periodic::Branch& branch, const std::string& started) {
   const Study& study = plan.study;
-  const RunRecord run{.command = options.command, .threads = 1, .started = started};
+  const RunFacts run{.command = options.command, .threads = 1, .started = started};
   results::MapWriter writer(*options.output, file_layout(plan, run));
-  BranchRecord(study, along, axis_parameters_beside(study, along), quantities, writer)
+  BranchGroup(study, along, axis_parameters_beside(study, along), quantities, writer)
       .append(parameters, branch);
   writer.write_texts("provenance", provenance(plan, run, {}));
   writer.finish();

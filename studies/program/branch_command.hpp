@@ -12,12 +12,12 @@ namespace frahm::studies {
 
 struct BranchCommandOptions {
   std::filesystem::path study;
-  std::string along;                                 // a parameter of the study that is a number
-  std::optional<std::string> from = {}, to = {};     // of it, a unit behind the value or none; else its axis
-  std::vector<std::string> at = {};                  // of other parameters; of `along`: where to start
-  std::vector<std::string> set = {};                 // applied to the study before
-  int steps = 2000;                                  // most points each way
-  int multiple = 0;                                  // of the excitation's period; 0: any
+  std::string along;                              // a parameter of the study that is a number
+  std::optional<std::string> from = {}, to = {};  // of it, a unit after the value or none; otherwise its axis
+  std::vector<std::string> at = {};               // of other parameters; of `along`: where to start
+  std::vector<std::string> set = {};              // applied to the study before
+  int steps = 2000;                               // most points each way
+  int multiple = 0;                               // of the excitation's period; 0: any
   std::optional<std::filesystem::path> output = {};  // of all points: CSV, or a result where it ends in .h5
   bool fresh = false;                                // replace another result that is there
   std::string command = {};                          // for the result's history

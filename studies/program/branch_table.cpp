@@ -7,8 +7,9 @@
 #include <iterator>
 
 #include "studies/map/output_quantities.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/program/branch_table.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 BranchTable::BranchTable(const Study& study, std::size_t along,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/branches/branch.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
@@ -22,7 +22,7 @@ class BranchTable {
   void print_failure(double start, const std::string& reason, std::ostream& out) const;
   // Every point along the curve with the special ones in their places, with all digits: the parameter in its
   // usual unit, the quantities in SI; then largest_multiplier (of the period), stable (1, 0), multiple and
-  // the kind of a special point, else nothing.
+  // the kind of a special point, otherwise nothing.
   std::string csv(const periodic::Branch& branch) const;
 
  private:

@@ -12,19 +12,20 @@
 #include "engine/team.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/rotation.hpp"
-#include "studies/identification/identification_record.hpp"
+#include "studies/identification/identification_columns.hpp"
 #include "studies/identification/identification_result.hpp"
 #include "studies/map/first_modes.hpp"
+#include "studies/map/map_groups.hpp"
 #include "studies/map/map_plan.hpp"
-#include "studies/map/map_record.hpp"
 #include "studies/map/map_sample.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/map/motion_cost.hpp"
-#include "studies/map/statistics_record.hpp"
+#include "studies/map/statistics_group.hpp"
 #include "studies/map/unfit_systems.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/program/array_job.hpp"
 #include "studies/program/branch_cost.hpp"
+#include "studies/program/check_command.hpp"
 #include "studies/program/check_tuning.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/memory_use.hpp"
@@ -34,6 +35,8 @@
 #include "studies/program/record_table.hpp"
 #include "studies/program/scatter_table.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -52,7 +55,7 @@ std::string about_seconds(double seconds) {
   return seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds);
 }
 
-// What a result holds of a variable or an axis beside its numbers: name, units, place in the file [bytes].
+// What a result holds of a variable or an axis next to its numbers: name, units, place in the file [bytes].
 constexpr double bytes_of_variable = 5e3;
 
 // A thread computes whole tiles, so that some threads may wait for the last.
@@ -152,9 +155,9 @@ void print_transient_choice(const Study& study, std::ostream& out) {
   fmt::print(out, "transient  {}", seconds_text(study, options.duration));
   if (std::ranges::any_of(study.network.excitations, [](const auto& each) { return each.order > 0; }))
     fmt::print(out, " at {}", frequency_text(study, options.from));
-  if (options.sweep.rate > 0.0) {
-    fmt::print(out, ", running to {} at {} a {}", frequency_text(study, options.sweep.to),
-               frequency_text(study, options.sweep.rate), study.dimensionless ? "unit of time" : "second");
+  if (options.run_up.rate > 0.0) {
+    fmt::print(out, ", running to {} at {} a {}", frequency_text(study, options.run_up.to),
+               frequency_text(study, options.run_up.rate), study.dimensionless ? "unit of time" : "second");
   }
   fmt::print(out, "\n");
 }

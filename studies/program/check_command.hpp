@@ -12,7 +12,7 @@ namespace frahm::studies {
 
 struct CheckOptions {
   std::filesystem::path study;
-  std::vector<std::string> set = {};  // name=value, a unit behind the value or none
+  std::vector<std::string> set = {};  // name=value, a unit after the value or none
   int threads = 0;                    // for the predicted time; 0: one on each processor
   std::uint64_t max_array = 0;        // tasks that an array of the cluster may have; 0: as Slurm here says
   int simulate_ranks = 0;             // so many ranks of `threads` threads (0: one); 0: no simulation

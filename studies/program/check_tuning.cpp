@@ -47,7 +47,7 @@ void print_prediction(const TuningSample& sample, const MemoryUse& memory, std::
   if (sample.is_whole) {
     fmt::print(out, " (the first start took {:.2g} s)\n", sample.seconds);
   } else {
-    fmt::print(out, " ({:.3g} responses/s on one; a start takes some {:.2g} to {:.2g})\n",
+    fmt::print(out, " ({:.3g} responses/s on one; a start takes about {:.2g} to {:.2g})\n",
                static_cast<double>(sample.responses) / sample.seconds, sample.least_responses,
                sample.most_responses);
   }
@@ -69,7 +69,7 @@ void print_modes_before(const Study& study, Listing listing, std::ostream& out) 
   try {
     print_stated_modes(study, modes_at_point(study, stated_values(study)), listing, out);
   } catch (const mechanics::MechanicsError& error) {
-    fmt::print(out, "As the study states it there are no modes: {}\n", error.what());
+    fmt::print(out, "The design of the study has no modes: {}\n", error.what());
   }
 }
 

@@ -10,10 +10,10 @@ inline constexpr const char* overview =
 inline constexpr const char* first_steps = R"(
 A study file describes a system and the axes of a map. From there:
   frahm new sweep study.toml                  a study to start from, with comments
-  frahm check study.toml                      is it right, how long will it take
+  frahm check study.toml                      check that it is right, and how long it will take
   frahm point study.toml --at r=0.9,f=0.1     the full report of one response
   frahm run study.toml                        the whole map, into study.h5; run again to resume
-  frahm status study.h5                       what is in a file, or how far it is
+  frahm status study.h5                       what a file holds, or how far its run is
   frahm report study.h5                       its page: maps, curves and numbers to look at
 Every command has its own help: frahm run --help. A word of a study or of its results: frahm explain WORD
 
@@ -25,7 +25,7 @@ inline constexpr const char* run_examples = R"(
 Examples:
   frahm run rig_atlas.toml                    into rig_atlas.h5, on all processors
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
-  frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
+  frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command resumes
   mpirun -np 16 frahm run rig_atlas.toml      on the ranks of an MPI job
   frahm run rig_atlas.toml --from rig_atlas.h5    after axes have grown: computes the new points only
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
@@ -37,11 +37,11 @@ Examples:
 inline constexpr const char* check_examples = R"(
 Examples:
   frahm check rig_atlas.toml --set "A=20 mm"
-  frahm check rig_atlas.toml --max-array 201  an array's tasks, as MaxArraySize of the cluster allows
+  frahm check rig_atlas.toml --max-array 201  tasks of an array, for the cluster's MaxArraySize
   frahm check rig_atlas.toml --simulate-ranks 1000 --threads 4)";
 
 inline constexpr const char* point_examples = R"(
-Examples (a bare number is in the unit in which the study speaks of the parameter):
+Examples (a bare number is in the unit that the study gives the parameter):
   frahm point den_hartog.toml --at r=0.9,f=0.1
   frahm point rig_atlas.toml --at "omega=250 rpm,I=6.36 kg" --history orbit.csv
   frahm point rig_atlas.toml --at omega=250 --json
@@ -56,18 +56,18 @@ Examples:
 
 inline constexpr const char* merge_examples = R"(
 Examples:
-  frahm merge rig_atlas.h5                    all shard logs beside it
+  frahm merge rig_atlas.h5                    all shard logs next to it
   frahm merge rig_atlas.h5 node1/rig_atlas.h5.*.frahm-log node2/rig_atlas.h5.*.frahm-log
   frahm merge rig_atlas.h5 --partial          what there is; the logs are kept)";
 
 inline constexpr const char* export_examples = R"(
 Examples:
-  frahm export rig_atlas.h5                   into rig_atlas.csv, a row a point
+  frahm export rig_atlas.h5                   into rig_atlas.csv, one row per point
   frahm export rig_atlas.h5 -o - | head
   frahm export curves.h5 --group resonance    the resonances the study asked for
   frahm export tuned.h5 --schedule            a tuning's schedule for a controller, in steps of 1 rpm
   frahm export tuned.h5 --sweep optimum.toml  a study of the response at its optimum; then frahm run it
-  frahm export found.h5 --study model.toml    a study in which the estimates of an identification stand
+  frahm export found.h5 --study model.toml    a study that contains the estimates of an identification
   frahm export rig_decay_main.toml --data decay.csv --rate "500 Hz" --noise "0.05 mm" --seed 7
                                               measurements as a sensor would take them, to try an experiment)";
 
@@ -81,12 +81,12 @@ Examples:
 inline constexpr const char* status_examples = R"(
 Examples:
   frahm status rig_atlas.h5                   axes, quantities, how it was made, the points that failed
-  frahm status running.h5                     of a run that goes on: how far it is, from its logs)";
+  frahm status running.h5                     how far a run in progress is, from its logs)";
 
 inline constexpr const char* verify_examples = R"(
 Examples:
-  frahm verify                                a line a case: worst deviation, what is allowed, pass or FAIL
-  frahm verify || echo "do not trust this machine"    it ends with 8 where a case fails)";
+  frahm verify                                one line per case: worst deviation, limit, pass or FAIL
+  frahm verify || echo "do not trust this machine"    its exit code is 8 if a case fails)";
 
 inline constexpr const char* new_examples = R"(
 Examples:
@@ -97,10 +97,10 @@ Examples:
 
 inline constexpr const char* explain_examples = R"(
 Examples:
-  frahm explain stiffness                     a key of a study, and where it stands
+  frahm explain stiffness                     a key of a study, and its sections
   frahm explain spring                        a type of element: its force, its values, units and ranges
-  frahm explain main_peak                     a quantity, whatever its mass or element
-  frahm explain kN/mm                         a unit: of what, and how much in SI
+  frahm explain main_peak                     a quantity, for any mass or element
+  frahm explain kN/mm                         a unit: what it measures, and its value in SI
   frahm explain grazing                       a status of a point
   frahm explain 7                             an exit code)";
 

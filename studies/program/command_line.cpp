@@ -10,6 +10,7 @@
 
 #include "studies/program/assist_command.hpp"
 #include "studies/program/command_examples.hpp"
+#include "studies/program/command_line.hpp"
 #include "studies/program/completion.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/explain_command.hpp"
@@ -20,9 +21,9 @@
 #include "studies/program/status_command.hpp"
 #include "studies/program/verify_command.hpp"
 #include "studies/program/version_command.hpp"
-#include "studies/reading/plain_text.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/plain_text.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -42,7 +43,7 @@ void add_study(CLI::App& command, std::filesystem::path& study) {
 void add_set(CLI::App& command, std::vector<std::string>& set) {
   command
       .add_option("--set", set,
-                  "change a parameter that is no axis: name=value or \"name=value unit\"; repeatable")
+                  "change a parameter that is not an axis: name=value or \"name=value unit\"; repeatable")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
 }
@@ -57,8 +58,9 @@ auto whole_within(std::int64_t least, std::int64_t most) {
 
 void add_threads(CLI::App& command, int& threads) {
   command
-      .add_option("--threads", threads,
-                  "number of threads; 0: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK, else all processors")
+      .add_option(
+          "--threads", threads,
+          "number of threads; 0: OMP_NUM_THREADS, otherwise SLURM_CPUS_PER_TASK, otherwise all processors")
       ->type_name("N")
       ->check(whole_within(0, 4096))
       ->take_last();
@@ -88,25 +90,27 @@ int run_as_given(CommandLine& line, std::ostream& out) {
 }
 
 void add_run(CLI::App& program, CommandLine& line) {
-  CLI::App* run =
-      add_command(program, "run",
-                  "compute what a study asks for: a map, an optimum, one motion or a model; again, to resume",
-                  help::run_examples);
+  CLI::App* run = add_command(
+      program, "run",
+      "compute what a study asks for: a map, an optimum, one motion or a model; run again to resume",
+      help::run_examples);
   RunCommandOptions& options = line.run;
   add_study(*run, options.study);
-  run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here")
+  run->add_option("-o,--output", options.run.output,
+                  "result file (default: the study's name with .h5, in this folder)")
       ->type_name("FILE");
   add_threads(*run, options.run.threads);
   run->add_option("--shard", line.shard,
-                  "i/n: compute part i of n, i from 0; else, in an array task of Slurm, its own part")
+                  "i/n: compute part i of n, i from 0 (default in an array task of Slurm: its own part)")
       ->type_name("I/N");
   run->add_option("--from", options.from,
-                  "reuse the points of this earlier result, of the same system on another grid")
+                  "reuse the points of this earlier result for the same system on another grid")
       ->type_name("RESULT");
-  run->add_flag("--fresh", options.run.fresh, "start anew: an earlier result and its logs are lost");
+  run->add_flag("--fresh", options.run.fresh,
+                "start from the beginning; an earlier result and its logs are lost");
   run->add_option("--time-budget", line.time_budget, "stop after 90s, 50m, 2h or 1d")->type_name("TIME");
   run->add_option("--rank-silence", line.rank_silence,
-                  "go on without an MPI rank that says nothing for so long; else for 60s")
+                  "continue without an MPI rank that has been silent for TIME (default 60s)")
       ->type_name("TIME");
   add_set(*run, options.set);
   add_progress(*run, options.run.progress);
@@ -117,28 +121,30 @@ void add_run(CLI::App& program, CommandLine& line) {
 }
 
 void add_check(CLI::App& program, CheckOptions& options, Action& action) {
-  CLI::App* check =
-      add_command(program, "check", "validate a study; its size, its time, its natural frequencies",
-                  help::check_examples);
+  CLI::App* check = add_command(program, "check",
+                                "validate a study and print its size, its time and its natural frequencies",
+                                help::check_examples);
   add_study(*check, options.study);
   add_set(*check, options.set);
   add_threads(*check, options.threads);
   check
       ->add_option("--max-array", options.max_array,
-                   "most tasks of a Slurm array (MaxArraySize); else as Slurm here says, or 1001")
+                   "largest number of tasks of a Slurm array, MaxArraySize (default: what Slurm reports "
+                   "here, or 1001)")
       ->type_name("N")
       ->check(whole_within(1, 4'000'001));  // the largest Slurm can be set to
   check
       ->add_option("--simulate-ranks", options.simulate_ranks,
-                   "predict time and efficiency on up to so many MPI ranks of --threads each (0: one)")
+                   "predict time and efficiency on up to N MPI ranks with --threads each (0: one)")
       ->type_name("N")
       ->check(whole_within(1, 100'000));
-  check->add_flag("--all", options.all, "every mode, of a large system too");
+  check->add_flag("--all", options.all, "print every mode, also of a large system");
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
 }
 
 void add_point(CLI::App& program, PointOptions& options, Action& action) {
-  CLI::App* point = add_command(program, "point", "the full report of one response", help::point_examples);
+  CLI::App* point =
+      add_command(program, "point", "print the full report of one response", help::point_examples);
   add_study(*point, options.study);
   point->add_option("--at", options.at, "name=value,...; other parameters as in the study")
       ->type_name("NAME=VALUE,...")
@@ -146,19 +152,19 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
   add_set(*point, options.set);
   point->add_option("--history", options.history, "write the motion over one period to this CSV file")
       ->type_name("FILE");
-  point->add_flag("--gradient", options.gradient,
-                  "exact derivatives with respect to the parameters, beside central differences");
+  point->add_flag(
+      "--gradient", options.gradient,
+      "print exact derivatives with respect to the parameters, with central differences next to them");
   point
-      ->add_option(
-          "--path", options.path,
-          "fastest: from the phases of its events where that is proved; general: by shooting, always")
+      ->add_option("--path", options.path,
+                   "fastest: from the phases of its events where that is proved; general: always by shooting")
       ->type_name("fastest|general")
       ->check(among({"fastest", "general"}))
       ->take_last();
   point->add_flag("--responses", options.responses,
-                  "every stable response that was found: state at omega t = 0, peaks, multipliers");
-  point->add_flag("--json", options.json, "the report as one JSON object");
-  point->add_flag("--all", options.all, "every quantity and mode, of a large system too");
+                  "print every stable response that was found: state at omega t = 0, peaks, multipliers");
+  point->add_flag("--json", options.json, "print the report as one JSON object");
+  point->add_flag("--all", options.all, "print every quantity and mode, also of a large system");
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
 }
 
@@ -167,37 +173,39 @@ void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action
       add_command(program, "branch", "follow a response along a parameter, stable or not, through folds",
                   help::branch_examples);
   add_study(*branch, options.study);
-  branch->add_option("--along", options.along, "the parameter, a number of the study")
+  branch->add_option("--along", options.along, "the parameter to follow, a number of the study")
       ->type_name("NAME")
       ->required();
-  branch->add_option("--from", options.from, "start of its range; else that of its axis")->type_name("VALUE");
-  branch->add_option("--to", options.to, "end of its range; else that of its axis")->type_name("VALUE");
+  branch->add_option("--from", options.from, "start of its range (default: that of its axis)")
+      ->type_name("VALUE");
+  branch->add_option("--to", options.to, "end of its range (default: that of its axis)")->type_name("VALUE");
   branch
-      ->add_option("--at", options.at,
-                   "name=value,...; other parameters as in the study; of the one followed: where to start")
+      ->add_option(
+          "--at", options.at,
+          "name=value,...; other parameters as in the study; for the followed parameter, where to start")
       ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
   add_set(*branch, options.set);
-  branch->add_option("--steps", options.steps, "most points in each direction, else 2000")
+  branch->add_option("--steps", options.steps, "largest number of points in each direction (default 2000)")
       ->type_name("N")
       ->check(whole_within(1, 1'000'000));
   branch
       ->add_option("--multiple", options.multiple,
-                   "follow a response that takes so many periods of the excitation; else any")
+                   "follow a response that takes N periods of the excitation (default: any)")
       ->type_name("N")
       ->check(whole_within(1, 64));
   branch
       ->add_option("-o,--output", options.output,
-                   "write all points to this file: CSV, or a result where it ends in .h5")
+                   "write all points to this file: a result if its name ends in .h5, otherwise CSV")
       ->type_name("FILE");
-  branch->add_flag("--fresh", options.fresh, "replace another result that is there: it is lost");
+  branch->add_flag("--fresh", options.fresh, "replace another result of that name, which is lost");
   add_progress(*branch, options.progress);
   branch->callback([&] { action = [&](std::ostream& out) { return branch_command(options, out); }; });
 }
 
 void add_status(CLI::App& program, std::filesystem::path& file, Action& action) {
-  CLI::App* status =
-      add_command(program, "status", "what a result file holds, or how far it is", help::status_examples);
+  CLI::App* status = add_command(program, "status", "print what a result file holds, or how far its run is",
+                                 help::status_examples);
   status->add_option("FILE", file, "result file, finished or not")->required();
   status->callback([&] { action = [&](std::ostream& out) { return status_command(file, out); }; });
 }
@@ -206,9 +214,9 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
   CLI::App* merge = add_command(program, "merge", "join what run --shard computed into the result file",
                                 help::merge_examples);
   merge->add_option("FILE", options.output, "result file to make")->required();
-  merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
+  merge->add_option("SHARD", options.logs, "shard logs, *.frahm-log (default: those next to FILE)");
   merge->add_flag("--partial", options.partial,
-                  "write what there is although tiles are missing; the logs stay");
+                  "write what there is even if tiles are missing; the logs are kept");
   add_threads(*merge, options.threads);
   add_progress(*merge, options.progress);
   merge->callback([&] { action = [&](std::ostream& out) { return merge_command(options, out); }; });
@@ -216,80 +224,83 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
 
 void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   CLI::App* command = add_command(
-      program, "export", "write a result as CSV; a study of an optimum or a model; simulated measurements",
+      program, "export", "write a result as CSV, a study of an optimum or a model, or simulated measurements",
       help::export_examples);
   command->add_option("FILE", options.file, "result file")->required();
   command
       ->add_option("--group", options.group,
-                   "a group instead of the map: resonance, orbits, branches, identification ...")
+                   "export a group instead of the map: resonance, orbits, branches, identification ...")
       ->type_name("GROUP");
-  command->add_flag("--csv", options.csv, "CSV, which is the default");
-  command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
-  command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm")
+  command->add_flag("--csv", options.csv, "write CSV (the default)");
+  command->add_flag("--schedule", options.schedule, "for a tuning: its schedule for a controller");
+  command
+      ->add_option("--step", options.step,
+                   "with --schedule: its step, in the unit of the band (default 1 rpm)")
       ->type_name("STEP")
       ->check(problem_of_number_above_zero);
-  command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file")
+  command
+      ->add_option("--sweep", options.sweep,
+                   "for a tuning: write a study that sweeps its optimum to this file")
       ->type_name("FILE");
   command
       ->add_option("--run-up", options.run_up,
-                   "of a tuning: a study of a run-up at its optimum, to this file")
+                   "for a tuning: write a study of a run-up at its optimum to this file")
       ->type_name("FILE");
   command
       ->add_option("--study", options.study,
-                   "of an identification: a study in which its estimates stand, to this file")
+                   "for an identification: write a study that contains its estimates to this file")
       ->type_name("FILE");
   DataOptions& data = options.data;
   command
       ->add_option("--data", data.output,
-                   "simulated measurements of a study (FILE may be one), to this CSV file; - for stdout")
+                   "write simulated measurements of a study (FILE may be one) to this CSV file; - for stdout")
       ->type_name("FILE");
   add_set(*command, data.set);
-  command->add_option("--at", data.at, "of --data: the point of a periodic response, name=value,...")
+  command->add_option("--at", data.at, "with --data: the point of a periodic response, name=value,...")
       ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
   command
       ->add_option("--rate", data.rate,
-                   "of --data: samples a second, or \"1 kHz\"; else 100 a natural period")
+                   "with --data: samples per second, or \"1 kHz\" (default: 100 per natural period)")
       ->type_name("RATE");
   command
       ->add_option("--duration", data.duration,
-                   "of --data: so long, \"10 s\"; else the motion, or ten periods")
+                   "with --data: duration, such as \"10 s\" (default: that of the motion, or ten periods)")
       ->type_name("TIME");
   command
       ->add_option("--noise", data.noise,
-                   "of --data: standard deviation, \"1%\" of each column's own or \"0.1 mm\"")
+                   "with --data: standard deviation of the noise, \"1%\" of each column's own or \"0.1 mm\"")
       ->type_name("NOISE");
-  command->add_option("--seed", data.seed, "of --data: of the noise, else 1")->type_name("N");
+  command->add_option("--seed", data.seed, "with --data: seed of the noise (default 1)")->type_name("N");
   command
       ->add_option("--columns", data.columns,
-                   "of --data: name,... of <mass>_displacement, _velocity, _acceleration, of a periodic "
-                   "response <element>_force too; else the displacements")
+                   "with --data: name,... of <mass>_displacement, _velocity, _acceleration, for a periodic "
+                   "response also <element>_force (default: the displacements)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv")
+  command->add_option("-o,--output", options.output, "CSV file, - for stdout (default: FILE with .csv)")
       ->type_name("FILE");
   command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });
 }
 
 void add_report(CLI::App& program, ReportOptions& options, Action& action) {
   CLI::App* command =
-      add_command(program, "report", "make the page of a result: figures, tables, where they come from",
+      add_command(program, "report", "make the page of a result: figures, tables and where they come from",
                   help::report_examples);
   command->add_option("FILE", options.file, "result file")->required();
-  command->add_option("-o,--output", options.output, "the page, - for stdout; else FILE with .html")
+  command->add_option("-o,--output", options.output, "the page, - for stdout (default: FILE with .html)")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--quantities", options.quantities,
-          "of a map: name,... to show, or floor*_peak; else those of the study's [report], else peaks, "
-          "strokes, regimes, stops, energy shares, differences and status")
+      ->add_option("--quantities", options.quantities,
+                   "for a map: name,... to show, or floor*_peak (default: those of the study's [report], "
+                   "otherwise peaks, strokes, regimes, stops, energy shares, differences and status)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
       ->add_option("--figures", options.figures,
-                   "no page: every figure as SVG, CSV and PDF into this folder; needs Node.js")
+                   "write every figure as SVG, CSV and PDF into this folder, and no page; needs Node.js")
       ->type_name("FOLDER");
   command->callback([&] { action = [&](std::ostream& out) { return report_command(options, out); }; });
 }
@@ -300,13 +311,13 @@ void add_new(CLI::App& program, NewOptions& options, Action& action) {
   command->add_option("KIND", options.kind, "sweep, tune, identify, decay or transient")
       ->required()
       ->type_name("sweep|tune|identify|decay|transient");
-  command->add_option("FILE", options.file, "the study to write, - for stdout; else KIND.toml");
+  command->add_option("FILE", options.file, "the study to write, - for stdout (default: KIND.toml)");
   command->callback([&] { action = [&](std::ostream& out) { return new_command(options, out); }; });
 }
 
 void add_explain(CLI::App& program, std::string& word, Action& action) {
   CLI::App* command =
-      add_command(program, "explain", "what a key, a quantity, a unit, a status or an exit code means",
+      add_command(program, "explain", "print what a key, a quantity, a unit, a status or an exit code means",
                   help::explain_examples);
   command->add_option("WORD", word, "the key of a study, quantity, unit, status, outcome or exit code")
       ->required();
@@ -314,8 +325,9 @@ void add_explain(CLI::App& program, std::string& word, Action& action) {
 }
 
 void add_completion(CLI::App& program, CommandLine& line) {
-  CLI::App* command = add_command(program, "completion", "print a script that completes this in a shell",
-                                  help::completion_examples);
+  CLI::App* command =
+      add_command(program, "completion", "print a script that completes these commands in a shell",
+                  help::completion_examples);
   command->add_option("SHELL", line.shell, "bash, zsh or fish")
       ->required()
       ->check(among({"bash", "zsh", "fish"}))
@@ -333,7 +345,8 @@ void add_help(CLI::App& program, CommandLine& line) {
   for (const CLI::App* each : program.get_subcommands(nullptr)) words += "|" + each->get_name();
   for (const std::string& kind : starter_kinds()) words += "|" + kind;
   CLI::App* command = add_command(program, "help", "print the help of a command", help::help_examples);
-  command->add_option("COMMAND", line.word, "else that of frahm itself")->type_name(words);
+  command->add_option("COMMAND", line.word, "command or kind of study (default: frahm itself)")
+      ->type_name(words);
   command->callback([&line] {
     line.action = [&line](std::ostream& out) {
       out << help_for(line.commands, line.word);
@@ -370,7 +383,7 @@ void describe(CLI::App& program, CommandLine& line) {
 }
 
 // What CLI11 knows of an option, in our own words.
-CommandOption told(const CLI::Option& option) {
+CommandOption option_of(const CLI::Option& option) {
   CommandOption own{.what = option.get_description(),
                     .is_positional = option.get_positional(),
                     .is_required = option.get_required(),
@@ -378,21 +391,21 @@ CommandOption told(const CLI::Option& option) {
   if (own.is_positional) own.names.push_back(option.get_name(true));
   for (const std::string& name : option.get_snames()) own.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) own.names.push_back("--" + name);
-  // Behind a colon it has the checks of the value; a flag has no type.
+  // After a colon it has the checks of the value; a flag has no type.
   const std::string type = option.get_type_name();
   if (option.get_items_expected_max() > 0) own.value = type.substr(0, type.find(':'));
   return own;
 }
 
-Command told(const CLI::App& app, const std::string& name) {
+Command command_of(const CLI::App& app, const std::string& name) {
   Command own{.name = name, .what = app.get_description(), .foot = app.get_footer()};
-  for (const CLI::Option* option : app.get_options()) own.options.push_back(told(*option));
+  for (const CLI::Option* option : app.get_options()) own.options.push_back(option_of(*option));
   for (const CLI::App* each : app.get_subcommands(nullptr))
-    own.commands.push_back(told(*each, name + " " + each->get_name()));
+    own.commands.push_back(command_of(*each, name + " " + each->get_name()));
   return own;
 }
 
-// The one of its commands that was given, else the program itself.
+// The one of its commands that was given, otherwise the program itself.
 const Command& given_command(const CLI::App& program, const Command& tree) {
   const auto given = program.get_subcommands();
   if (given.empty()) return tree;
@@ -408,7 +421,7 @@ std::string in_our_words(const CLI::ParseError& error) {
   constexpr std::string_view before = " required ", after = " missing", received = "received ";
   const std::size_t type = first.find(before), times = first.rfind(received);
   if (times != std::string::npos)
-    return fmt::format("{} is given {} times, and can be given once", option,
+    return fmt::format("{} is given {} times, but can be given only once", option,
                        first.substr(times + received.size()));
   if (type == std::string::npos || !first.ends_with(after)) return first;
   const std::size_t start = type + before.size();
@@ -445,7 +458,7 @@ std::string asked_help(const CLI::App& program, const Command& tree) {
   return is_of_kind ? help_for(tree, unknown.front()) : help_text(command);
 }
 
-// What is wrong with the first argument that could not be told in a message, kept in a note or stored in a
+// What is wrong with the first argument that could not be printed in a message, kept in a note or stored in a
 // result, or that is empty, as no value of ours is.
 std::optional<std::string> unfit_argument(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
@@ -469,7 +482,7 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   describe(program, line);
   for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
   line.branch.command = line.run.command;
-  line.commands = told(program, "frahm");
+  line.commands = command_of(program, "frahm");
   if (const auto wrong = unfit_argument(argc, argv)) {
     complaints << "frahm: " << *wrong << '\n';
     return exit_code::wrong_input;

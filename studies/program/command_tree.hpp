@@ -8,7 +8,7 @@ namespace frahm::studies {
 // An option or a positional argument of a command.
 struct CommandOption {
   std::vector<std::string> names{};  // "-o", "--output"; of a positional its one name, "STUDY"
-  std::string value{};  // what stands behind it, "FILE"; "auto|plain" for one of these; "": nothing
+  std::string value{};  // what stands after it, "FILE"; "auto|plain" for one of these; "": nothing
   std::string what;
   bool is_positional = false;
   bool is_required = false;
@@ -27,7 +27,7 @@ struct Command {
   std::string last_word() const { return name.substr(name.rfind(' ') + 1); }
 };
 
-// The choices of an option whose value is one of a few words; else none.
+// The choices of an option whose value is one of a few words; otherwise none.
 std::vector<std::string> choices_of(const CommandOption& option);
 
 }  // namespace frahm::studies

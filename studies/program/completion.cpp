@@ -9,7 +9,7 @@ namespace {
 bool is_folder(const CommandOption& option) {
   return option.value == "FOLDER";
 }
-// Of what is no file we know no values.
+// We know no values of what is not a file.
 bool is_file(const CommandOption& option) {
   return option.is_positional || option.value == "FILE" || option.value == "RESULT";
 }
@@ -106,8 +106,8 @@ std::string zsh_options(const Command& command) {
   std::string text;
   for (const CommandOption& option : command.options) {
     if (option.is_positional) {
-      text += " " + in_quotes(fmt::format("{}:{}:{}", option.is_list ? "*" : "", zsh_safe(option.names.front()),
-                                       zsh_values(option)));
+      text += " " + in_quotes(fmt::format("{}:{}:{}", option.is_list ? "*" : "",
+                                          zsh_safe(option.names.front()), zsh_values(option)));
       continue;
     }
     for (const std::string& name : option.names) {

@@ -16,18 +16,20 @@
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/measurements.hpp"
+#include "studies/program/data_export.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/stored_study.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 namespace {
 
 constexpr std::string_view data_mark = "# simulated by frahm export";
 
-// A number > 0 and the unit behind it.
+// A number > 0 and the unit after it.
 struct Amount {
   double value = 0.0;
   std::string unit;
@@ -121,7 +123,7 @@ void check_place(const std::filesystem::path& place) {
   std::string line;
   if (!there || !std::filesystem::is_regular_file(place)) return;
   if (std::getline(there, line) && line.starts_with(data_mark)) return;
-  throw engine::IoError(place, "is there already and not made by frahm export --data; name another file");
+  throw engine::IoError(place, "exists already and was not made by frahm export --data; name another file");
 }
 
 std::string csv(const Study& study, const std::filesystem::path& file, const DataOptions& options,
@@ -150,8 +152,7 @@ std::string csv(const Study& study, const std::filesystem::path& file, const Dat
 Study study_of(const std::filesystem::path& file, const std::vector<std::string>& set) {
   if (file.extension() == ".toml") return read_study_with(file, set);
   if (!set.empty())
-    throw StudyError(rules::wrong_option,
-                     "--set: a result is of parameters that are settled; name its study");
+    throw StudyError(rules::wrong_option, "--set: the parameters of a result are fixed; name its study");
   require_result(file);
   return read_stored_study(results::MapReader(file), file).study;
 }
@@ -162,8 +163,8 @@ int export_data(const std::filesystem::path& file, const DataOptions& options, s
   const Study study = study_of(file, options.set);
   if (study.identify())
     throw StudyError(rules::other_kind,
-                     "{}: an identification reads measurements and has no motion of its own; "
-                     "frahm export --study makes a study of what it found",
+                     "{}: an identification reads measurements and has no motion of its own; frahm export "
+                     "--study makes a study from its estimates",
                      file.string());
   if (!study.motion()) require_responses(study);
   const MeasurementOptions asked{

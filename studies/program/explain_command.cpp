@@ -7,12 +7,13 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/exit_code.hpp"
-#include "studies/program/record_words.hpp"
-#include "studies/reading/element_keys.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_keys.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/program/explain_command.hpp"
+#include "studies/program/result_words.hpp"
+#include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/quantities/units.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -31,7 +32,8 @@ const Meaning exit_codes[] = {
      "exit code: finished, but some points failed or have no periodic response; they are marked in the file"},
     {"4", "exit code: stopped, by a signal or the time budget; the same command resumes"},
     {"5",
-     "exit code: refused to mix results of different studies; nothing was changed. Another -o, or --fresh"},
+     "exit code: refused to mix results of different studies; nothing was changed. Use another -o, or "
+     "--fresh"},
     {"6",
      "exit code: a file or stream could not be read or written, a file is in the way of an output, or memory "
      "ran out"},
@@ -41,52 +43,63 @@ const Meaning exit_codes[] = {
     {"some_failed",
      "outcome of a run in Python: exit code 3, finished, but some points failed; they are marked in the "
      "file"},
-    {"stopped", "outcome of a run in Python: exit code 4, by a signal or the time budget"},
+    {"stopped", "outcome of a run in Python: exit code 4, stopped by a signal or the time budget"},
     {"not_converged", "outcome of a run in Python: exit code 7; the best so far is in the file"}};
 
 // What is no key of the readers, and no unit of UDUNITS.
 const Meaning further_meanings[] = {
     {"repeat",
-     "repeat in any [[table]]: { i = [1, 60] } makes a table for each i, and in "
-     "its texts {i}, {i-1} and {i+1} "
-     "are numbers; with a step [3, 60, 3]; of two indices every pair"},
-    {"deg", "deg: no unit of a study: a degree is written degree"}};
+     "repeat in any [[table]]: { i = [1, 60] } makes a table for each i, and in its texts {i}, {i-1} and "
+     "{i+1} are numbers; [3, 60, 3] has a step of 3; two indices make a table for every pair"},
+    {"deg", "deg: not a unit of a study; write degree"}};
 
 const Meaning flag_words[] = {
-    {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
+    {"not_computed", "status or regime: no value here, because it was not asked for, or not reached"},
     {"ok",
-     "status: a periodic response was found, with its accuracy beside it (residual, error_bound); without an "
-     "error_bound how many digits are right is not known, and frahm point tells why"},
+     "status: a periodic response was found; residual and error_bound give its accuracy. Without an "
+     "error_bound it is not known how many digits are right, and frahm point says why"},
     {"grazing",
-     "status: a contact's velocity or force only touches its limit: the response is right, its derivative "
-     "does "
-     "not exist there"},
+     "status: a contact's velocity or force only touches its limit: the response is right, but its "
+     "derivative does not exist there"},
     {"unbounded",
      "status: an undamped resonance that friction cannot hold: no periodic response exists (it grows for "
      "ever)"},
-    {"failed", "status: no response was found; frahm point STUDY --at ... tells the reason"},
+    {"failed", "status: no response was found; frahm point STUDY --at ... prints the reason"},
     {"several",
-     "status: more than one stable response was found, of which one is told; [orbits] show chooses which"},
+     "status: more than one stable response was found, and one of them is reported; [orbits] show chooses "
+     "which"},
     {"not_periodic",
      "status: no stable response was found among the multiples of the period that were tried "
      "([orbits] most_multiple)"},
     {"converged",
-     "outcome of a tuning or a fit: it meets its tolerances; of a tuning those of the certificate gap and of "
-     "the KKT residual"},
+     "outcome of a tuning or a fit: it meets its tolerances; for a tuning, those of the certificate gap and "
+     "of the KKT residual"},
     {"not_converged",
-     "outcome of a tuning or a fit: it does not meet its tolerances; the best found is told"},
+     "outcome of a tuning or a fit: it does not meet its tolerances; the best found is reported"},
     {"infeasible",
-     "outcome of a tuning: no design met the limits ([[constraint]]); the one told breaks them least, and "
-     "`violation` says by how much"},
+     "outcome of a tuning: no design met the limits ([[constraint]]); the one reported breaks them least, "
+     "and `violation` says by how much"},
     {"unbounded", "outcome of a tuning: the response has no bound at some frequency of the band"},
-    {"failed", "outcome of a tuning: the response could not be computed; the reason is told beside it"},
-    {"stopped", "outcome of a tuning: by a signal or the time budget; the same command goes on"},
+    {"failed", "outcome of a tuning: the response could not be computed; the reason is given with it"},
+    {"stopped", "outcome of a tuning: stopped by a signal or the time budget; the same command resumes"},
     {"no_friction", "regime of a friction element: it has no friction force here, F = 0"},
     {"non_stop", "regime of a friction element: it slides all the time, turning at single instants"},
     {"one_stop", "regime of a friction element: it stops once or twice in a period of the excitation"},
     {"multi_stop",
      "regime of a friction element: it stops three times or more in a period of the excitation"},
-    {"stuck", "regime of a friction element: it never slides"}};
+    {"stuck", "regime of a friction element: it never slides"},
+    {"fold", "special point of a branch: the parameter turns back there"},
+    {"branching",
+     "special point of a branch: a multiplier passes +1 and the parameter goes on, so another branch "
+     "crosses"},
+    {"period_doubling",
+     "special point of a branch: a multiplier passes -1; a branch of twice the period begins there"},
+    {"torus", "special point of a branch: a pair of complex multipliers passes the unit circle"},
+    {"stability_jump",
+     "special point of a branch: a multiplier jumps across the unit circle where an event begins"},
+    {"grazing", "special point of a branch: an event of an element begins or ends there"},
+    {"jump", "special point of a branch: it ends where an event begins that throws the motion elsewhere"},
+    {"corner", "special point of a branch: the parameter turns back where an event begins or ends"}};
 
 const char* name_of(periodic::Owner owner) {
   switch (owner) {
@@ -115,7 +128,7 @@ bool names(const std::string& word, const periodic::QuantityRow& row) {
   return word == suffix || is_numbered(word, suffix) || (*name_of(row.owner) && word.ends_with("_" + suffix));
 }
 
-std::string told(const periodic::QuantityRow& row) {
+std::string text_of(const periodic::QuantityRow& row) {
   const std::string owner = name_of(row.owner);
   const std::string name = owner.empty() ? row.suffix : fmt::format("{}_{}", owner, row.suffix);
   std::string meaning = row.meaning;
@@ -129,7 +142,7 @@ std::string told(const periodic::QuantityRow& row) {
   return text;
 }
 
-// Of the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
+// For the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
 std::vector<std::string> quantities_called(const std::string& word) {
   std::size_t longest = 0;
   for (const auto& row : periodic::quantity_table()) {
@@ -137,7 +150,7 @@ std::vector<std::string> quantities_called(const std::string& word) {
   }
   std::vector<std::string> found;
   for (const auto& row : periodic::quantity_table()) {
-    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(told(row));
+    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(text_of(row));
   }
   return found;
 }
@@ -154,19 +167,19 @@ std::string written_range(mechanics::Range range) {
   return "";
 }
 
-// "stiffness = k [N/m], of what turns [N m/rad], >= 0".
-std::string told(const mechanics::ValueKey& value, bool is_optional) {
+// "stiffness = k [N/m], for a rotation [N m/rad], >= 0".
+std::string text_of(const mechanics::ValueKey& value, bool is_optional) {
   std::string text = value.key;
   if (*value.symbol) text += fmt::format(" = {}", value.symbol);
   const Quantity along = element_quantity(value.dimension, false),
                  turning = element_quantity(value.dimension, true);
   text += fmt::format(" [{}]", written_si_unit(along));
-  if (turning != along) text += fmt::format(", of what turns [{}]", written_si_unit(turning));
+  if (turning != along) text += fmt::format(", for a rotation [{}]", written_si_unit(turning));
   return text + fmt::format(", {}{}", written_range(value.range), is_optional ? "; may be left out" : "");
 }
 
 // "; for kind = sweep or transient" where not all forms of the section have the key.
-std::string owners_told(const KeyOwners& owners) {
+std::string owners_text(const KeyOwners& owners) {
   if (*owners.of == '\0') return "";
   const std::string decider = *owners.decider ? fmt::format("{} = ", owners.decider) : "";
   return fmt::format("; for {}{}", decider, listed(separated(owners.of), " or "));
@@ -176,11 +189,11 @@ std::string owners_told(const KeyOwners& owners) {
 std::string meaning_of(const StudyKey& key) {
   const std::vector<std::string> words = words_of(key);
   const std::string choices = words.empty() ? "" : fmt::format(" ({})", listed(words, " or "));
-  return key.meaning + choices + owners_told(key.owners);
+  return key.meaning + choices + owners_text(key.owners);
 }
 
 // The values of a type of element, and what stands of its other keys in the table of keys.
-std::string keys_told(const std::string& type) {
+std::string keys_text(const std::string& type) {
   const mechanics::ElementKind& kind = kind_called(type);
   std::string text;
   for (const std::string& key : keys_of_type(type)) {
@@ -191,7 +204,7 @@ std::string keys_told(const std::string& type) {
     }
     const bool is_optional =
         found == &kind.slope || found == &kind.cubic || (found == &kind.second && kind.second_is_optional);
-    text += "\n  " + (found ? told(*found, is_optional)
+    text += "\n  " + (found ? text_of(*found, is_optional)
                             : fmt::format("{}: {}", key, meaning_of(study_key("element", key))));
   }
   return text;
@@ -205,7 +218,7 @@ std::vector<std::string> types_called(const std::string& word) {
         type == iwan ? fmt::format("the sum of its sliders, each a jenkins: {}", kind_called(type).force)
                      : kind_called(type).force;
     found.push_back(fmt::format("{}: type of an [[element]], u across it, v = u': its force is {}{}", type,
-                                force, keys_told(type)));
+                                force, keys_text(type)));
   }
   return found;
 }
@@ -241,10 +254,10 @@ std::vector<std::string> units_called(const std::string& word) {
           unit_behind(quantity), factor == unit.scale ? "" : ", as it counts cycles", usual_units(quantity)));
     }
     if (found.empty())
-      found.push_back(
-          fmt::format("{}: unit of {}, which no value of a study is by itself", word, dimension_name(unit)));
+      found.push_back(fmt::format("{}: unit of {}; no value of a study has this dimension by itself", word,
+                                  dimension_name(unit)));
     if (word == "g")
-      found.emplace_back("g: in an [[excitation.record]] of accelerations the same as gravity");
+      found.emplace_back("g: the same as gravity, in an [[excitation.record]] of accelerations");
   } catch (const UnitError&) {  // it is none
   }
   return found;
@@ -273,7 +286,7 @@ std::vector<std::string> words_of_studies() {
   }
   for (const Meaning& each : flag_words) words.push_back(each.word);
   for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
-  for (const RecordWord& each : record_words()) words.emplace_back(each.name);
+  for (const ResultWord& each : result_words()) words.emplace_back(each.name);
   for (const Meaning& each : further_meanings) words.push_back(each.word);
   return words;
 }
@@ -295,15 +308,14 @@ int explain_command(const std::string& word, std::ostream& out) {
     if (word == each.word) found.push_back(each.text);
   }
   const bool is_known = !found.empty();
-  for (std::string& text : is_known ? record_words_named(word) : record_words_called(word))
+  for (std::string& text : is_known ? result_words_named(word) : result_words_called(word))
     found.push_back(std::move(text));
   // Words of our own come first: UDUNITS has a unit called `force`.
   if (found.empty()) found = units_called(word);
   if (found.empty())
     throw StudyError(rules::unknown_name,
-                     "explain: \"{}\" is no key, type, choice, quantity, variable of results, unit, status, "
-                     "regime, outcome or "
-                     "exit code{}",
+                     "explain: \"{}\" is not a key, type, choice, quantity, variable of results, unit, "
+                     "status, regime, outcome or exit code{}",
                      word, suggestion(word, words_of_studies()));
   for (const std::string& text : found) out << text << '\n';
   return exit_code::done;

@@ -10,17 +10,18 @@
 #include <ostream>
 
 #include "results/map_reader.hpp"
-#include "studies/identification/identification_record.hpp"
+#include "studies/identification/identification_columns.hpp"
 #include "studies/identification/identified_study.hpp"
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/grid.hpp"
+#include "studies/program/export_command.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/unit_words.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 #include "studies/tuning/schedule_table.hpp"
 #include "studies/tuning/sweep_study.hpp"
-#include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -96,7 +97,8 @@ void write_map(const results::MapReader& map, std::ostream& out) {
   }
 }
 
-// Of a ragged group, what a row says beside each of its samples: one table of samples. Others are unchanged.
+// For a ragged group, what a row says next to each of its samples: one table of samples. Others are
+// unchanged.
 std::vector<results::Column> beside_samples(std::vector<results::Column> columns) {
   const auto is_start = [](const results::Column& each) { return each.variable.name == "row_start"; };
   const auto found = std::ranges::find_if(columns, is_start);
@@ -164,7 +166,7 @@ void write_group(const results::MapReader& map, const std::string& group, std::o
   write_columns(beside_samples(std::move(columns)), out);
 }
 
-// Writes the requested group, else the map, or in a file without a map the motion, optimum or branch.
+// Writes the requested group, otherwise the map, or in a file without a map the motion, optimum or branch.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
   if (!asked.empty()) return write_group(map, asked, out);
   for (const char* group : {"decay", "transient", optimum_group, identification_group, "branches"}) {
@@ -192,10 +194,11 @@ void write_export(const ExportOptions& options, const results::MapReader& map, s
 
 void check_name_of_study(const char* option, const std::filesystem::path& place) {
   if (place.extension() != ".toml")
-    throw StudyError(rules::wrong_file, "{} {}: a study is named .toml", option, place.string());
+    throw StudyError(rules::wrong_file, "{} {}: the name of a study must end in .toml", option,
+                     place.string());
 }
 
-// A study at the optimum of a tuning, with its tables beside it. Whoever has changed one of them since keeps
+// A study at the optimum of a tuning, with its tables next to it. Whoever has changed one of them since keeps
 // them all; some of them alone are of an export that failed.
 int write_at_optimum(const ExportOptions& options, std::ostream& out) {
   const bool runs_up = !options.run_up.empty();
@@ -226,21 +229,21 @@ void check_options(const ExportOptions& options) {
   const int asked = int{!options.group.empty()} + int{options.schedule} + int{!options.sweep.empty()} +
                     int{!options.run_up.empty()} + int{!options.study.empty()} + int{!data.output.empty()};
   if (asked > 1)
-    throw StudyError(rules::wrong_option,
-                     "--group, --schedule, --sweep, --run-up, --study and --data: one of them at a time");
+    throw StudyError(
+        rules::wrong_option,
+        "--group, --schedule, --sweep, --run-up, --study and --data: only one of them can be given");
   const bool of_data = !data.set.empty() || !data.at.empty() || !data.rate.empty() ||
                        !data.duration.empty() || !data.noise.empty() || !data.columns.empty() ||
                        !data.seed.empty();
   if (of_data && data.output.empty())
     throw StudyError(rules::wrong_option,
-                     "--set, --at, --rate, --duration, --noise, --seed and --columns: belong to --data");
-  if (options.step && !options.schedule)
-    throw StudyError(rules::wrong_option, "--step: belongs to --schedule");
+                     "--set, --at, --rate, --duration, --noise, --seed and --columns: these need --data");
+  if (options.step && !options.schedule) throw StudyError(rules::wrong_option, "--step: it needs --schedule");
   for (const auto& [option, file] :
        {std::pair("--sweep", options.sweep), std::pair("--run-up", options.run_up),
         std::pair("--study", options.study), std::pair("--data", data.output)}) {
     if (!file.empty() && !options.output.empty())
-      throw StudyError(rules::wrong_option, "--output: {} names its own file", option);
+      throw StudyError(rules::wrong_option, "--output: {} already names its file", option);
   }
 }
 
@@ -252,11 +255,10 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   if (!options.study.empty()) return write_study(options, out);
   if (!options.data.output.empty()) return export_data(options.file, options.data, out);
   if (options.file.extension() == ".toml" && std::filesystem::exists(options.file))
-    throw StudyError(
-        rules::wrong_file,
-        "{0}: is a study; name its result, such as {1}, which frahm run {0} makes, or add --data "
-        "FILE.csv for what sensors would show of it",
-        options.file.string(), options.file.stem().string() + ".h5");
+    throw StudyError(rules::wrong_file,
+                     "{0}: is a study; name its result, such as {1}, which frahm run {0} makes, or add "
+                     "--data FILE.csv for what sensors would measure",
+                     options.file.string(), options.file.stem().string() + ".h5");
   const results::MapReader map = undamaged_result(options.file);
   if (options.output == "-") {
     write_export(options, map, out);

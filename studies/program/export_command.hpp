@@ -26,7 +26,7 @@ struct ExportOptions {
 // empty field (0 in flags) for a value not computed, points in the order of the map. Of a decay, transient or
 // tuning, or if a group is asked for, the columns of the group side by side, the shorter ones filled with
 // empty fields. Of a tuning also its schedule (schedule_table.hpp), or a study of its response at the optimum
-// with the tables that it reads beside it (sweep_study.hpp); of an identification the study with its
+// with the tables that it reads next to it (sweep_study.hpp); of an identification the study with its
 // estimates (identified_study.hpp); of any study simulated measurements (data_export.hpp). Returns 0. Throws
 // StudyError for anything the file does not have, results::StoreError, engine::IoError.
 int export_command(const ExportOptions& options, std::ostream& out);

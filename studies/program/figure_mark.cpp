@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "studies/record/fingerprint.hpp"
+#include "studies/provenance/fingerprint.hpp"
 
 namespace frahm::studies {
 namespace {

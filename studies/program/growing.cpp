@@ -8,8 +8,8 @@
 #include "engine/io_error.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/study_changes.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/study_changes.hpp"
 
 namespace frahm::studies {
 
@@ -28,7 +28,7 @@ void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::fil
   if (lost == 0 || !std::filesystem::equivalent(from, output, ignored)) return;
   throw engine::ResumeRefused(
       output, fingerprint_of(results::MapReader(output)), plan.fingerprint,
-      fmt::format("it holds {} points that this grid has not, and they would be lost: name another file "
+      fmt::format("it holds {} points that this grid does not have, which would be lost: name another file "
                   "with -o; --from {} reuses its points there too",
                   lost, from.string()));
 }
@@ -39,19 +39,20 @@ std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyP
     return refusal_advice(changes_since_logs(refused, plan.study, output));
   constexpr const char* otherwise = "name another file with -o, or discard what is there with --fresh";
   if (refused.kept() == plan.header_of_logs(""))
-    return fmt::format("it was begun without --from: leave that out to go on, {}", otherwise);
+    return fmt::format("it was begun without --from: leave out --from to resume, {}", otherwise);
   const auto source = source_of_logs(output, refused.kept());
   if (source && refused.kept() == plan.header_of_logs(source->identity)) {
     if (!plan.grown_from)
-      return fmt::format("it was begun with --from {0}: add --from {0} to go on, {1}", source->file,
+      return fmt::format("it was begun with --from {0}: add --from {0} to resume, {1}", source->file,
                          otherwise);
-    return fmt::format("it was begun with --from {}, as that was then: give the same file to go on, {}",
-                       source->file, otherwise);
+    return fmt::format(
+        "it was begun with --from {}, which has changed since: give the same file to resume, {}",
+        source->file, otherwise);
   }
   return refusal_advice(
       changes_since_logs(refused, plan.study, output),
-      fmt::format("finish that run first, or make a map of what there is with \"frahm merge {0} --partial\"; "
-                  "then add --from {0} -o ANOTHER.h5 to reuse its points; or {1}",
+      fmt::format("finish that run first, or make a map of the finished points with \"frahm merge {0} "
+                  "--partial\"; then add --from {0} -o ANOTHER.h5 to reuse its points; or {1}",
                   output.string(), otherwise));
 }
 

@@ -21,7 +21,7 @@ bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
 void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::filesystem::path& from,
                  const std::filesystem::path& output);
 
-// Advice about logs beside the output that the run cannot resume; empty: the same as for logs of any other
+// Advice about logs next to the output that the run cannot resume; empty: the same as for logs of any other
 // study.
 std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyPlan& plan,
                               const std::filesystem::path& output);

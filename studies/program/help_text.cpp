@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "studies/program/help_text.hpp"
 #include "studies/program/starter_studies.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -72,10 +73,9 @@ std::string entries(const Command& command, bool positional) {
 
 std::string help_of_kind(const std::string& kind, const Command& run) {
   return fmt::format(
-      "frahm has no command \"{0}\": frahm run computes a study of any kind, one with kind = \"{0}\" too.\n\n"
-      "  frahm new {0} {0}.toml    writes such a study to start from, with comments\n"
-      "  frahm check {0}.toml\n"
-      "  frahm run {0}.toml\n\n{1}",
+      "frahm has no command \"{0}\": frahm run computes a study of any kind, also one with kind = "
+      "\"{0}\".\n\n  frahm new {0} {0}.toml    writes such a study to start from, with comments\n  frahm "
+      "check {0}.toml\n  frahm run {0}.toml\n\n{1}",
       kind, help_text(run));
 }
 

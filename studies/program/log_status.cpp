@@ -12,13 +12,13 @@
 #include "engine/survey.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/array_tasks.hpp"
+#include "studies/provenance/array_tasks.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_logs_told = 10;  // listed by name; the others are counted
+constexpr std::size_t most_logs_listed = 10;  // listed by name; the others are counted
 
 // The job of some logs, and its plan.
 struct LoggedJob {
@@ -50,7 +50,7 @@ LoggedJob job_of_note(const std::filesystem::path& output, const engine::LogHead
 LoggedJob job_of_tiles(const std::filesystem::path& log, const engine::LogHeader& study) {
   constexpr std::uint64_t most_tiles = 100'000'000;  // to index them takes 16 bytes each
   if (study.tiles == 0 || study.tiles > most_tiles)
-    throw engine::IoError(log, fmt::format("the header of this shard log tells of {} tiles: must be 1 to {}",
+    throw engine::IoError(log, fmt::format("the header of this shard log gives {} tiles: must be 1 to {}",
                                            study.tiles, most_tiles));
   LoggedJob known;
   known.job = {.tiles = study.tiles,
@@ -103,7 +103,7 @@ void print_work(const engine::Survey& survey, const std::string& unit, std::ostr
     const std::vector<std::uint64_t> numbers(shards.begin(), shards.end());
     fmt::print(out, "{:<22} {}\n", "at work",
                count == 1
-                   ? "a run of the whole"
+                   ? "one run of everything"
                    : fmt::format("{} of {} array tasks: {}", numbers.size(), count, array_list(numbers)));
   }
   if (at_work.empty()) return;
@@ -130,7 +130,7 @@ void print_missing_tasks(const engine::Survey& survey, const std::vector<std::fi
     fmt::print(out, "{:<22} {}\n", "of these not at work",
                idle.empty() ? "none" : "--array=" + array_list(idle));
   }
-  if (arrays.size() > 1) fmt::print(out, "{:<22} any one of these arrays completes the rest\n", "");
+  if (arrays.size() > 1) fmt::print(out, "{:<22} each of these arrays alone completes the rest\n", "");
 }
 
 }  // namespace
@@ -142,16 +142,17 @@ void print_log_status(const std::filesystem::path& output, const std::vector<std
   print_done(survey, known, out);
   print_work(survey, known.unit, out);
   print_missing_tasks(survey, logs, out);
-  if (survey.missing.empty()) fmt::print(out, "{:<22} frahm merge {}\n", "all is computed", output.string());
+  if (survey.missing.empty())
+    fmt::print(out, "{:<22} frahm merge {}\n", "everything is computed", output.string());
   fmt::print(out, "{:<22} {}\n{:<22} {}\n", "fingerprint_physics", study.fingerprint.physics,
              "fingerprint_grid", study.fingerprint.grid);
-  if (survey.writers.size() > most_logs_told) {
+  if (survey.writers.size() > most_logs_listed) {
     fmt::print(out, "{:<22} {}\n", "logs", survey.writers.size());
   } else {
     for (const auto& writer : survey.writers) fmt::print(out, "{:<22} {}\n", "log", writer.log.string());
   }
   for (const engine::UnusedBytes& unused : survey.unused) {
-    fmt::print(out, "{:<22} {}: {} bytes from byte {} on\n", "unused or in writing", unused.log.string(),
+    fmt::print(out, "{:<22} {}: {} bytes from byte {} on\n", "unused or being written", unused.log.string(),
                unused.bytes, unused.from);
   }
 }

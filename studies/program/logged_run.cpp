@@ -18,8 +18,8 @@
 #include "studies/program/growing.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/study_changes.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -52,12 +52,12 @@ void mend_words(const StudyPlan& plan, const LoggedWork& work, const results::Ma
     if (run.shard.count > 1 || other_words(finished, run.output, plan).changes.empty()) return;
     const std::vector<std::string> changes = write_words(plan, work, run.output);
     if (!changes.empty())
-      fmt::print(out, "what changed is written into {}, and nothing is computed:\n{}", run.output.string(),
+      fmt::print(out, "nothing is computed; these changes are written into {}:\n{}", run.output.string(),
                  lines_of_changes(changes));
   } catch (const StudyError& unreadable) {
     fmt::print(out,
-               "note: {} has other words than this study, which stay: its own study can no longer be "
-               "read ({})\n",
+               "note: {} keeps its texts, which differ from those of this study, because its own study can "
+               "no longer be read ({})\n",
                run.output.string(), unreadable.what());
   }
 }
@@ -112,7 +112,7 @@ std::optional<results::MapReader> begin(const StudyPlan& plan, const engine::Run
   };
   if (run.fresh && run.shard.count > 1 && std::filesystem::exists(run.output))
     throw engine::IoError(run.output,
-                          "is there already, and one shard made afresh cannot replace it: remove it first");
+                          "exists already, and one shard with --fresh cannot replace it: remove it first");
   std::optional<results::MapReader> finished = what_stands();
   if (!finished && run.shard.count == 1) {
     lock.emplace(run.output);
@@ -120,14 +120,14 @@ std::optional<results::MapReader> begin(const StudyPlan& plan, const engine::Run
     if (finished) lock.reset();  // another process has finished it while this one waited
   }
   if (!finished) return finished;
-  const std::string advice = "--fresh computes it anew";
+  const std::string advice = "--fresh computes it again";
   refuse_damage(*finished, advice);
   if (plan.study.map()) refuse_other_axes(plan.study, finished->layout(), run.output.string(), advice);
   remove_leftovers(*finished, plan, run.output);
   return finished;
 }
 
-// Computes the missing tiles of a plan's job, with the note of its study beside the logs.
+// Computes the missing tiles of a plan's job, with the note of its study next to the logs.
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
   const bool is_new = write_study_note(run.output, plan);
   try {
@@ -147,7 +147,8 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
 // Notes on stderr the unusable parts of earlier logs.
 void tell_unused(const engine::Summary& summary) {
   for (const engine::UnusedBytes& unused : summary.unused) {
-    fmt::print(std::cerr, "note: {}: {} bytes from byte {} on are no whole tile and are computed again\n",
+    fmt::print(std::cerr,
+               "note: {}: {} bytes from byte {} on are not complete tiles and are computed again\n",
                unused.log.string(), unused.bytes, unused.from);
   }
 }
@@ -156,27 +157,27 @@ void tell_unused(const engine::Summary& summary) {
 // several. They return the exit code.
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output) {
   if (summary.points.done == 0) {
-    fmt::print(std::cerr, "{}: nothing is computed yet; the same command begins anew\n", summary.reason);
+    fmt::print(std::cerr, "{}: nothing is computed yet; the same command starts again\n", summary.reason);
     return exit_code::stopped;
   }
   const double percent =
       100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);
-  fmt::print(std::cerr, "{}: {:.1f} % is done and kept beside {}; the same command goes on from there\n",
+  fmt::print(std::cerr, "{}: {:.1f} % is done and kept next to {}; the same command resumes from there\n",
              summary.reason, percent, output.string());
   return exit_code::stopped;
 }
 
-// seconds: that the making of the file had; it begins anew.
+// seconds: that the making of the file had; it begins again.
 int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output, double seconds) {
   fmt::print(std::cerr,
-             "{}: all is computed and kept beside {}; the same command makes the file, which takes more than "
-             "the {:.1f} s that were left\n",
+             "{}: everything is computed and kept next to {}; the same command makes the file, which takes "
+             "more than the {:.1f} s that were left\n",
              stop.reason(), output.string(), seconds);
   return exit_code::stopped;
 }
 
 int tell_shard(const engine::RunOptions& run, const engine::Summary& summary, std::ostream& out) {
-  fmt::print(out, "shard {}/{}: {} tiles are kept beside {}\nwhen all shards are done: frahm merge {}\n",
+  fmt::print(out, "shard {}/{}: {} tiles are kept next to {}\nwhen all shards are done: frahm merge {}\n",
              run.shard.index, run.shard.count, summary.tiles, run.output.string(), run.output.string());
   if (summary.points.failed == 0) return exit_code::done;
   fmt::print(std::cerr, "{} points have no response; the merged file lists them\n", summary.points.failed);
@@ -196,11 +197,11 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::clock_t cpu_start = std::clock();
-  RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};
+  RunFacts facts{.command = options.command, .threads = 0, .started = utc_now()};
   check_result_place(run.output, options.study, run.fresh);
   std::optional<engine::OutputLock> lock;
   if (const auto finished = begin(plan, run, options.from, lock)) {
-    fmt::print(out, "everything is computed already; --fresh computes it anew\n");
+    fmt::print(out, "everything is computed already; --fresh computes it again\n");
     mend_words(plan, work, *finished, run, out);
     return work.tell_what_stands();
   }
@@ -209,8 +210,8 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
-  record.threads = summary.threads;
-  record.ranks = summary.ranks;
+  facts.threads = summary.threads;
+  facts.ranks = summary.ranks;
   const engine::StopRequest stop(run.time_budget, Clock::now() - run.begun, run.called_off);
   const AssemblyOptions assembly{.output = run.output,
                                  .logs = engine::find_logs(run.output),
@@ -219,7 +220,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
                                  .stop_asked = [&] { return stop.asked(); }};
   check_result_place(run.output, options.study, run.fresh);  // again: it may have changed
   const Clock::time_point computed = Clock::now();
-  if (!work.assemble(record, assembly, *lock))
+  if (!work.assemble(facts, assembly, *lock))
     return tell_unwritten(stop, run.output, std::chrono::duration<double>(Clock::now() - computed).count());
   remove_study_notes(run.output);
   return work.tell_made({.points = summary.points.done - summary.points.resumed - summary.points.reused,

@@ -10,11 +10,11 @@
 #include "results/map_reader.hpp"
 #include "results/rewording.hpp"
 #include "studies/program/run_command.hpp"
-#include "studies/record/assembly_options.hpp"
-#include "studies/record/provenance.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/assembly_options.hpp"
+#include "studies/provenance/provenance.hpp"
+#include "studies/provenance/study_plan.hpp"
 
-// Common to all runs that save their tiles in shard logs beside the output.
+// Common to all runs that save their tiles in shard logs next to the output.
 namespace frahm::studies {
 
 // The effort of a run.
@@ -31,14 +31,14 @@ struct Effort {
 struct LoggedWork {
   std::function<engine::Job()> job;  // the job to compute; called once, with the lock of the output held
   // Makes the file; false if it was stopped.
-  std::function<bool(const RunRecord&, const AssemblyOptions&, const engine::OutputLock&)> assemble;
+  std::function<bool(const RunFacts&, const AssemblyOptions&, const engine::OutputLock&)> assemble;
   // The words of the study for a finished file that was made from another text of it.  kept: that text.
   std::function<results::Rewording(const Study& kept, const results::MapReader& file)> words;
   std::function<int()> tell_what_stands;        // prints an existing file; returns the exit code
   std::function<int(const Effort&)> tell_made;  // prints a file just made
 };
 
-// Computes the missing tiles of a plan, saves them in shard logs beside the output, then makes the file.
+// Computes the missing tiles of a plan, saves them in shard logs next to the output, then makes the file.
 // Returns the exit code. Throws engine::ResumeRefused, engine::Locked, engine::IoError, StudyError.
 int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run, const StudyPlan& plan,
                 const LoggedWork& work, std::ostream& out);

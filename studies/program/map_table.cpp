@@ -13,7 +13,7 @@
 #include "studies/program/exit_code.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/program/scatter_table.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -39,7 +39,7 @@ std::string failures_text(const std::vector<FlagCounts>& flags) {
   const std::uint64_t not_periodic = status == flags.end() ? 0 : status->of("not_periodic");
   std::string text = failed > 0 ? fmt::format("{} points failed", failed) : "";
   if (not_periodic > 0)
-    text += fmt::format("{}{} points have no periodic response that was found", failed > 0 ? ", " : "",
+    text += fmt::format("{}{} points for which no periodic response was found", failed > 0 ? ", " : "",
                         not_periodic);
   return text.empty() ? "some points failed" : text;
 }
@@ -50,16 +50,17 @@ void print_what_else(const MapPlan& plan, const results::MapReader& map, std::ui
   if (const PointsAboveZero open = points_above_zero(map, "unsettled"); open.points > 0) {
     const periodic::OrbitsWanted wanted = plan.study.orbits_wanted();
     fmt::print(out,
-               "{:<22} at {} of {} points {} of {} starts came to no stable response of up to {} periods: "
+               "{:<22} at {} of {} points {} of {} starts reached no stable response of up to {} periods: "
                "others may exist\n",
                "unsettled", open.points, points, open.sum,
                open.points * static_cast<std::uint64_t>(wanted.starts), wanted.most_multiple);
   }
   if (const PointsAboveZero open = points_above_zero(map, "continuum"); open.points > 0)
-    fmt::print(out,
-               "{:<22} {} of {} points show one of a continuum of responses, as sliders of jenkins or iwan "
-               "elements never slip there: that with z(T/2) = -z(0), else of least energy\n",
-               "continuum", open.points, points);
+    fmt::print(
+        out,
+        "{:<22} {} of {} points show one of a continuum of responses, because sliders of jenkins or iwan "
+        "elements never slip there: the one with z(T/2) = -z(0), otherwise the one of least energy\n",
+        "continuum", open.points, points);
 }
 
 // The lines are those of provenance(): "<point as --at takes it>: <reason>".

@@ -12,7 +12,7 @@ namespace frahm::studies {
 
 // The short table that ends a run: worst value of the headline along the slowest axis, shares of the
 // regimes, statuses, effort, and for the first failed points the command that reproduces each. study: as the
-// user named it. Returns the exit code: 3 if points failed, else 0.
+// user named it. Returns the exit code: 3 if points failed, otherwise 0.
 int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
                     const std::filesystem::path& file, const std::optional<Effort>& effort,
                     std::ostream& out);

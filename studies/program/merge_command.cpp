@@ -16,8 +16,8 @@
 #include "studies/program/map_table.hpp"
 #include "studies/program/run_tuning.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
 #include "studies/tuning/assemble_tuning.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 
@@ -36,7 +36,7 @@ engine::LogHeader study_of(const std::vector<std::filesystem::path>& logs,
   throw engine::IoError(output, "there is no shard log to merge");
 }
 
-// The files beside which the note of the study may lie: the output, and those the logs were written for
+// The files next to which the note of the study may lie: the output, and those the logs were written for
 // (<output>.<writer>.frahm-log).
 std::vector<std::filesystem::path> places_of_note(const MergeOptions& options,
                                                   const std::vector<std::filesystem::path>& logs) {
@@ -45,7 +45,7 @@ std::vector<std::filesystem::path> places_of_note(const MergeOptions& options,
   return places;
 }
 
-RunRecord record_of(const MergeOptions& options) {
+RunFacts facts_of(const MergeOptions& options) {
   return {
       .command = fmt::format("frahm merge {}", options.output.string()), .threads = 1, .started = utc_now()};
 }
@@ -61,7 +61,7 @@ AssemblyOptions assembly_of(const MergeOptions& options, const std::vector<std::
 }
 
 int tell_stopped(const MergeOptions& options, const engine::StopRequest& stop) {
-  fmt::print(std::cerr, "{}; the shard logs are kept and {} is as it was\n", stop.reason(),
+  fmt::print(std::cerr, "{}; the shard logs are kept and {} is unchanged\n", stop.reason(),
              options.output.string());
   return exit_code::stopped;
 }
@@ -75,10 +75,10 @@ void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
   if (!options.partial || !plan.grown_from || !std::filesystem::exists(options.output)) return;
   const results::MapReader there(options.output);
   if (identity_of(there.texts("provenance")) != plan.grown_from->identity) return;
-  throw engine::IoError(
-      options.output, fmt::format("the missing points are to be taken from it, and a part would replace it: "
-                                  "frahm merge ANOTHER.h5 {}.*.frahm-log --partial",
-                                  options.output.string()));
+  throw engine::IoError(options.output,
+                        fmt::format("the missing points come from it, and a partial file would replace it; "
+                                    "use frahm merge ANOTHER.h5 {}.*.frahm-log --partial",
+                                    options.output.string()));
 }
 
 // A result of another study is not replaced, unless the map grows from it and replaces it.
@@ -88,9 +88,8 @@ void refuse_another_result(const MergeOptions& options, const StudyPlan& plan) {
   const engine::Fingerprint kept = fingerprint_of(there);
   if (kept == plan.fingerprint) return;
   if (plan.grown_from && identity_of(there.texts("provenance")) == plan.grown_from->identity) return;
-  throw engine::ResumeRefused(
-      options.output, kept, plan.fingerprint,
-      "it is not replaced: give merge another file to make, or remove this one first");
+  throw engine::ResumeRefused(options.output, kept, plan.fingerprint,
+                              "it is not replaced: name another file to make, or remove this one first");
 }
 
 int merge_map(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
@@ -102,7 +101,7 @@ int merge_map(const MergeOptions& options, const std::vector<std::filesystem::pa
   refuse_loss_of_source(options, plan);
   refuse_another_result(options, plan);
   const engine::StopRequest stop(std::nullopt);
-  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, stop), lock);
+  const Assembly assembly = assemble(plan, facts_of(options), assembly_of(options, logs, stop), lock);
   if (!assembly.finished) return tell_stopped(options, stop);
   if (assembly.missing_tiles == 0) {
     remove_notes(options, logs);
@@ -120,7 +119,7 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
   check_note_gives(plan, noted, header);
   refuse_another_result(options, plan);
   const engine::StopRequest stop(std::nullopt);
-  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, stop), lock);
+  const auto result = assemble_tuning(plan, facts_of(options), assembly_of(options, logs, stop), lock);
   if (!result) return tell_stopped(options, stop);
   const std::uint64_t missing = plan.tiles - result->starts.size();
   if (missing == 0) {
@@ -143,11 +142,11 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
     const auto study = engine::study_of_log(log);
     if (study && study->fingerprint != fingerprint_of(there)) return false;
   }
-  refuse_damage(there, logs.empty() ? "frahm run --fresh computes it anew"
-                                             : "remove it, and merge makes it anew of the shard logs");
+  refuse_damage(there, logs.empty() ? "frahm run --fresh computes it again"
+                                    : "remove it, and merge makes it again from the shard logs");
   engine::remove_logs(logs);
   remove_notes(options, logs);
-  fmt::print(out, "{} is finished already, nothing is left to merge\n", options.output.string());
+  fmt::print(out, "{} is finished already; nothing is left to merge\n", options.output.string());
   return true;
 }
 

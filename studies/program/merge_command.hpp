@@ -10,7 +10,7 @@ namespace frahm::studies {
 
 struct MergeOptions {
   std::filesystem::path output;
-  std::vector<std::filesystem::path> logs;  // empty: all beside the output
+  std::vector<std::filesystem::path> logs;  // empty: all next to the output
   bool partial = false;                     // although tiles are missing; the logs stay
   int threads = 0;                          // >= 0; 0: engine::default_threads()
   engine::ProgressStyle progress = engine::ProgressStyle::automatic;

@@ -50,11 +50,10 @@ double largest_ratio(const Study& study, const mechanics::NetworkValues& values)
 // A ratio meant in per cent is a valid one, and another system.
 void note_beyond_critical(double ratio, std::ostream& out) {
   if (ratio <= 1.0) return;
-  fmt::print(
-      out,
-      "note: [damping]: modal: a ratio of {:.6g} is above 1, that of critical damping: such a mode does "
-      "not swing; 2 % is 0.02\n",
-      ratio);
+  fmt::print(out,
+             "note: [damping]: modal: a ratio of {:.6g} is above 1 (critical damping), so this mode does not "
+             "oscillate; 2 % is 0.02\n",
+             ratio);
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ mechanics::NetworkValues stated_values(const Study& study) {
 }
 
 void print_stated_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out) {
-  fmt::print(out, "As the study states it:\n");
+  fmt::print(out, "For the design of the study:\n");
   print_modes(study, modes, listing, out);
 }
 

@@ -6,7 +6,7 @@
 
 #include "solvers/mechanics/modes.hpp"
 #include "studies/program/listing.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

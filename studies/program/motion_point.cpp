@@ -9,9 +9,11 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/motion/motion_columns.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/motion_point.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/settings.hpp"
 
 namespace frahm::studies {
@@ -66,7 +68,7 @@ std::string csv(const Study& study, const transient::ForcedMotion& motion) {
 
 void refuse_options_of_orbits(const PointOptions& options) {
   const auto refuse = [](const char* option) {
-    throw StudyError(rules::wrong_option, "{}: belongs to a periodic response, and the point is a motion",
+    throw StudyError(rules::wrong_option, "{}: it needs a periodic response, but the point is a motion",
                      option);
   };
   if (options.gradient) refuse("--gradient");

@@ -3,7 +3,7 @@
 #include <iosfwd>
 
 #include "studies/program/point_command.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

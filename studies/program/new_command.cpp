@@ -5,10 +5,11 @@
 
 #include "engine/io_error.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/new_command.hpp"
 #include "studies/program/starter_studies.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 
@@ -26,7 +27,7 @@ int new_command(const NewOptions& options, std::ostream& out) {
   if (file.extension() == ".h5")
     throw StudyError(rules::wrong_file, "{}: has the name of a result; name this study .toml", file.string());
   if (std::filesystem::exists(std::filesystem::symlink_status(file)))
-    throw engine::IoError(file, "is there already, and is not replaced; name another file");
+    throw engine::IoError(file, "exists already and is not replaced; name another file");
   write_whole_file(file, text);
   fmt::print(out, "{}\nnext: frahm check {}\n", file.string(), file.string());
   return exit_code::done;

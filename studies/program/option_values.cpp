@@ -7,8 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "studies/reading/spelling.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/program/option_values.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -29,7 +30,7 @@ engine::Shard shard_of(std::string_view text) {
     if (index && count && *index < *count) return {.index = *index, .count = *count};
   }
   throw StudyError(rules::wrong_option,
-                   "--shard \"{}\": write i/n, such as 0/16 to 15/16: i is below n, from 0 on", text);
+                   "--shard \"{}\": write i/n, such as 0/16 to 15/16: i is at least 0 and below n", text);
 }
 
 engine::Shard shard_of_array_task(const std::function<const char*(const char*)>& variable) {
@@ -39,7 +40,7 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
     if (!text) return otherwise;
     if (const auto number = whole_number(text)) return *number;
     throw StudyError(rules::wrong_option,
-                     "the environment has {} = \"{}\", which is no whole number; give --shard i/n", name,
+                     "the environment has {} = \"{}\", which is not a whole number; give --shard i/n", name,
                      text);
   };
   const std::uint64_t id = read("SLURM_ARRAY_TASK_ID", 0), first = read("SLURM_ARRAY_TASK_MIN", 0);
@@ -49,12 +50,11 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
   // the set nor the share of a task follows.
   const bool is_series = step > 0 && count > 0 && last == first + (count - 1) * step;
   if (!is_series || id < first || id > last || (id - first) % step != 0) {
-    throw StudyError(
-        rules::wrong_option,
-        "array task {} of {} tasks from {} to {} in steps of {} (environment SLURM_ARRAY_TASK_*): which "
-        "share it has is clear only where the tasks are evenly spaced; give --shard i/n, such as "
-        "--shard $SLURM_ARRAY_TASK_ID/16 of an --array within 0-15",
-        id, count, first, last, step);
+    throw StudyError(rules::wrong_option,
+                     "array task {} of {} tasks from {} to {} in steps of {} (environment "
+                     "SLURM_ARRAY_TASK_*): its share is clear only if the tasks are evenly spaced; give "
+                     "--shard i/n, such as --shard $SLURM_ARRAY_TASK_ID/16 of an --array within 0-15",
+                     id, count, first, last, step);
   }
   return {.index = (id - first) / step, .count = count};
 }
@@ -85,7 +85,7 @@ std::string problem_of_whole_number(std::string_view text, std::int64_t least, s
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_number = error == std::errc{} && end == text.data() + text.size();
   if (is_number && number >= least && number <= most) return "";
-  return fmt::format("\"{}\" is no whole number from {} to {}", text, least, most);
+  return fmt::format("\"{}\" is not a whole number from {} to {}", text, least, most);
 }
 
 std::string problem_of_number_above_zero(const std::string& text) {
@@ -94,7 +94,7 @@ std::string problem_of_number_above_zero(const std::string& text) {
   const bool is_number = error == std::errc{} && end == text.data() + text.size();
   return is_number && number > 0.0 && std::isfinite(number)
              ? ""
-             : fmt::format("\"{}\" is no number above 0", text);
+             : fmt::format("\"{}\" is not a number above 0", text);
 }
 
 }  // namespace frahm::studies

@@ -22,7 +22,7 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
 // "90s", "50m", "2h", "1.5d"; > 0. option: its name, for messages.
 std::chrono::duration<double> time_span_of(std::string_view option, std::string_view text);
 
-// What to say of a value behind the option's name; "" of one that is right: one of some words, a whole number
+// What to say of a value after the option's name; "" of one that is right: one of some words, a whole number
 // of a range, a number > 0.
 std::string problem_of_word(std::string_view text, std::span<const std::string> words);
 std::string problem_of_whole_number(std::string_view text, std::int64_t least, std::int64_t most);

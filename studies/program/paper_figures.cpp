@@ -15,8 +15,9 @@
 #include "results/report/report_page.hpp"
 #include "studies/program/external_program.hpp"
 #include "studies/program/figure_mark.hpp"
+#include "studies/program/paper_figures.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -32,7 +33,7 @@ void require_node() {
   if (version.found) return;
   throw StudyError(
       rules::not_installed,
-      "--figures: needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
+      "--figures: it needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
 }
 
 // A folder within that of the figures, in which they are drawn before any is put in its place. It exists only
@@ -75,7 +76,7 @@ ProgramEnd make_pdf(const std::string& svg, const std::string& pdf) {
 
 // Makes the PDFs of drawn figures.  names: of the figures, without their extension.  Returns what to tell.
 std::string make_pdfs(const std::vector<std::string>& names, const std::filesystem::path& drawn) {
-  std::string told;
+  std::string problems;
   for (const std::string& name : names) {
     const std::string path = (drawn / name).string();
     const ProgramEnd end = make_pdf(path + ".svg", path + ".pdf");
@@ -83,9 +84,9 @@ std::string make_pdfs(const std::vector<std::string>& names, const std::filesyst
     if (end.code == 0) continue;
     std::error_code unimportant;
     std::filesystem::remove(path + ".pdf", unimportant);
-    told += fmt::format("No {}.pdf: the converter ended with code {}.\n", name, end.code);
+    problems += fmt::format("No {}.pdf: the converter ended with code {}.\n", name, end.code);
   }
-  return told;
+  return problems;
 }
 
 std::string text_of(const std::filesystem::path& path) {

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "studies/reading/plain_text.hpp"
+#include "studies/program/plain_output.hpp"
+#include "studies/reading/text/plain_text.hpp"
 
 namespace frahm::studies {
 namespace {
 
 constexpr std::size_t handed_on_at = 1 << 12;  // [bytes]
 
-// Of a text, the bytes before a character at its end that may be cut off.
+// For a text, the bytes before a character at its end that may be cut off.
 std::size_t whole_characters(const std::string& text) {
   const std::size_t longest = 4, from = text.size() - std::min(text.size(), longest - 1);
   for (std::size_t at = text.size(); at-- > from;) {

@@ -6,8 +6,10 @@
 
 #include "studies/program/exit_code.hpp"
 #include "studies/program/motion_point.hpp"
+#include "studies/program/point_command.hpp"
 #include "studies/program/point_report.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/settings.hpp"
 
 namespace frahm::studies {
@@ -34,9 +36,8 @@ std::string csv(const periodic::History& history, bool dimensionless) {
 void require_responses(const Study& study) {
   const bool over_records = study.tune() && study.tune()->peaks;
   if ((study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) || over_records) {
-    throw StudyError(rules::other_kind,
-                     "{}: {} has no periodic response to tell; frahm run computes what it has",
-                     study.source.name, over_records ? "a tuning over records" : kind_noun(study.kind()));
+    throw StudyError(rules::other_kind, "{}: {} has no periodic response; use frahm run", study.source.name,
+                     over_records ? "a tuning over records" : kind_noun(study.kind()));
   }
 }
 

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
 struct PointOptions {
   std::filesystem::path study;
-  // name=value each, a unit behind the value or none. Other parameters have the study's values.
+  // name=value each, a unit after the value or none. Other parameters have the study's values.
   std::vector<std::string> at = {};
   std::vector<std::string> set = {};  // applied to the study before
   // CSV file of the time history; "-" is refused, as `out` has the report.

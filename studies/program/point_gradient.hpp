@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/response/gradient_check.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
@@ -18,7 +18,7 @@ struct PointGradient {
     std::string unit;  // SI, of the parameter; "1" where it has none or none is known
     std::vector<periodic::DerivativeCheck> derivatives;  // of each quantity
   };
-  std::string reason;  // why the point has no derivatives; else empty
+  std::string reason;  // why the point has no derivatives; otherwise empty
   std::vector<periodic::QuantityDescription> quantities;
   std::vector<By> by;  // empty if there is a reason
 };

@@ -12,7 +12,7 @@
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/map/way_of_sweep.hpp"
+#include "studies/map/way_of_slow_sweep.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -54,10 +54,10 @@ void describe_all(const Study& study, const std::vector<periodic::Quantity>& qua
   }
 }
 
-// The values of the points on the way to a point, that point last (way_of_sweep).
+// The values of the points on the way to a point, that point last (way_of_slow_sweep).
 std::vector<mechanics::NetworkValues> values_on_way(const Study& study, std::span<const double> parameters) {
   std::vector<mechanics::NetworkValues> way;
-  for (std::vector<double>& point : way_of_sweep(study, study.orbits_wanted(), parameters))
+  for (std::vector<double>& point : way_of_slow_sweep(study, study.orbits_wanted(), parameters))
     evaluate(study.values, study.parameters, point, way.emplace_back());
   return way;
 }
@@ -68,8 +68,8 @@ std::string continuum_text(std::span<const PointReport::QuantityValue> quantitie
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (quantities[i].description.name != "continuum" || !(values[i] > 0.0)) continue;
     return fmt::format(
-        "{:.0f} slider{} of jenkins or iwan elements never slip{}, and may have other offsets; shown is the "
-        "motion {}",
+        "{:.0f} slider{} of jenkins or iwan elements never slip{} and may have other offsets; the motion "
+        "shown is the one {}",
         values[i], values[i] > 1.0 ? "s" : "", values[i] > 1.0 ? "" : "s",
         half_period ? "with z(T/2) = -z(0)" : "of least energy");
   }
@@ -137,7 +137,7 @@ void add_comparison(const Study& study, std::span<const double> parameters,
   }
   RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study),
                   compared_orbits(study));
-  std::vector<std::vector<double>> way = way_of_sweep(study, compared_orbits(study), parameters);
+  std::vector<std::vector<double>> way = way_of_slow_sweep(study, compared_orbits(study), parameters);
   other.begin_row();
   for (std::vector<double>& point : way) other.add_point(point);
   other.solve();
@@ -171,11 +171,10 @@ double value_of(const PointReport& report, const char* name) {
 std::string why_no_bound(const mechanics::Network& network, const PointReport& report) {
   constexpr double undamped = 1.0 - 1e-9;  // the largest multiplier: below, rounding does not make it
   if (!is_found(report) || !std::isnan(value_of(report, "error_bound"))) return "";
-  if (mechanics::has_smooth_law(network)) return "a smooth law is integrated, within tolerances";
-  if (value_of(report, "floquet_radius") >= undamped)
-    return "nothing damps the motion, so that no error fades";
-  if (mechanics::may_have_several_responses(network)) return "a law is not monotone, so that errors may grow";
-  return "an event nearly happens: within rounding the orbit may have others";
+  if (mechanics::has_smooth_law(network)) return "a smooth law is integrated within tolerances";
+  if (value_of(report, "floquet_radius") >= undamped) return "nothing damps the motion, so no error fades";
+  if (mechanics::may_have_several_responses(network)) return "a law is not monotone, so errors may grow";
+  return "an event nearly happens: within rounding the orbit may have other events";
 }
 
 }  // namespace

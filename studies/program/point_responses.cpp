@@ -35,7 +35,7 @@ class Responses {
             periodic::PeriodicResponse& response)
       : study_(study), quantities_(quantities), response_(response), columns_(state_columns(study.network)) {}
 
-  // The response that is told now.
+  // The response that is reported now.
   void add() {
     FoundResponse found;
     std::vector<double> values(quantities_.size());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

@@ -8,7 +8,7 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/point_report.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -35,13 +35,13 @@ void print_heading(const Study& study, const PointReport& report, std::ostream& 
   }
   fmt::print(out, "residual {:.2g} after {} Newton steps", report.residual, report.newton_iterations);
   if (report.way == periodic::Way::event_phases)
-    fmt::print(out, " on the phases of its events; proved that there are no others\n");
+    fmt::print(out, " on the phases of its events; it is proved that there are no others\n");
   else
     fmt::print(out, ", {} passages of the flow\n", report.passages);
   if (!report.continuum.empty())
-    fmt::print(out, "one of a continuum: {}; the error bound is of this one\n", report.continuum);
+    fmt::print(out, "one of a continuum: {}; the error bound refers to this one\n", report.continuum);
   if (!report.why_no_bound.empty())
-    fmt::print(out, "no error bound: {}; how many digits are right is not known\n", report.why_no_bound);
+    fmt::print(out, "no error bound: {}; it is not known how many digits are right\n", report.why_no_bound);
   fmt::print(out, "\n");
 }
 
@@ -108,7 +108,7 @@ std::string number_text(double value, int digits) {
 }
 
 void print_gradient(const PointGradient& gradient, std::ostream& out) {
-  fmt::print(out, "\nDerivatives by parameters in SI units\n");
+  fmt::print(out, "\nDerivatives with respect to parameters in SI units\n");
   if (!gradient.reason.empty()) {
     fmt::print(out, "  none: {}\n", gradient.reason);
     return;

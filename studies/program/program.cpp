@@ -19,8 +19,9 @@
 #include "studies/program/command_line.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/plain_output.hpp"
+#include "studies/program/program.hpp"
 #include "studies/program/refusal_advice.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -39,7 +40,7 @@ Ending carry_out(const CommandLine& line, std::ostream& out) {
     out.flush();
     return out ? Ending{code}
                : Ending{exit_code::input_output,
-                        "standard output could not be written to; a file that was made is whole"};
+                        "standard output could not be written to; any file made is complete"};
   } catch (const StudyError& error) {
     return {exit_code::wrong_input, error.what()};
   } catch (const engine::ResumeRefused& error) {
@@ -57,7 +58,7 @@ Ending carry_out(const CommandLine& line, std::ostream& out) {
     return {exit_code::input_output, "there is not enough memory"};
   } catch (const std::system_error& error) {
     return {exit_code::input_output,
-            fmt::format("the system refuses a thread or another of its means: {}", error.what())};
+            fmt::format("the system refuses a thread or another resource: {}", error.what())};
   } catch (const std::exception& error) {
     return {exit_code::internal_error, fmt::format("internal error, please report it: {}", error.what())};
   }

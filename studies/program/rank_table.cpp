@@ -5,7 +5,8 @@
 
 #include "engine/progress.hpp"
 #include "engine/team.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/program/rank_table.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -36,7 +37,7 @@ void print_limit(const RankCosts& costs, int ranks, int threads, std::ostream& o
              100.0 * enough, limit == ranks ? "up to" : "beyond", limit);
 }
 
-// Of a tile [s].
+// For a tile [s].
 double mean_cost(const MapSample& sample) {
   double seconds = 0.0;
   for (const TileCost& each : sample.costs) seconds += each.seconds;
@@ -49,30 +50,30 @@ void print_rank_table(const Grid& grid, const MapSample& sample, int ranks, int 
                       std::ostream& out) {
   if (static_cast<std::int64_t>(ranks) * threads > most_threads)
     throw StudyError(rules::wrong_option,
-                     "--simulate-ranks {} with --threads {}: at most {} threads in all can be replayed",
+                     "--simulate-ranks {} with --threads {}: at most {} threads in total can be replayed",
                      ranks, threads, most_threads);
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
   const RankCosts costs{.tiles = costs_of_all(sample.costs, grid.tiles()),
                         .start = start_seconds,
                         .assembly = sample.encoding_seconds * share,
                         .processors = engine::default_threads()};
-  fmt::print(
-      out,
-      "\nOn ranks of {} thread{} each, by a replay of the hand-out with the cost of {} sampled tiles ({:.3g} "
-      "ms each on average),\n{:.0f} us a request at rank 0, {:.0f} ms to its answer, assembly at {:.0f} MB/s "
-      "a core by the ranks on rank 0's machine,\nof as many processors as this one, on {} of them:\n",
-      threads, threads == 1 ? "" : "s", sample.costs.size(), 1e3 * mean_cost(sample), 1e6 * costs.service,
-      1e3 * costs.answer, 1e-6 * static_cast<double>(sample.raw_bytes) / sample.encoding_seconds,
-      assembling_threads(costs.processors, ranks, threads));
+  fmt::print(out,
+             "\nOn ranks of {} thread{} each, by a replay of how tiles are given out, with the cost of {} "
+             "sampled tiles ({:.3g} ms each on average),\n{:.0f} us per request at rank 0, {:.0f} ms to its "
+             "answer, assembly at {:.0f} MB/s per core by the ranks on rank 0's machine,\nwhich has as many "
+             "processors as this one, on {} of them:\n",
+             threads, threads == 1 ? "" : "s", sample.costs.size(), 1e3 * mean_cost(sample),
+             1e6 * costs.service, 1e3 * costs.answer,
+             1e-6 * static_cast<double>(sample.raw_bytes) / sample.encoding_seconds,
+             assembling_threads(costs.processors, ranks, threads));
   fmt::print(out, "{:>7}{:>9}{:>16}{:>12}{:>10}{:>11}{:>11}{:>11}{:>11}\n", "ranks", "cores", "wall time",
              "efficiency", "of tiles", "start", "waiting", "end", "assembly");
   for (std::int64_t row = 1; row < ranks; row *= 10) print_row(costs, static_cast<int>(row), threads, out);
   print_row(costs, ranks, threads, out);
-  fmt::print(
-      out,
-      "efficiency: computing of tiles / (wall time x cores); of tiles: the same until the last tile is done; "
-      "then what is lost\nto the start, to waiting for rank 0, to none being left at the end, and to the "
-      "assembly on the machine of rank 0.\n");
+  fmt::print(out,
+             "efficiency: time computing tiles / (wall time x cores); of tiles: the same until the last tile "
+             "is done; then what is lost\nto the start, to waiting for rank 0, to lack of tiles at the end, "
+             "and to the assembly on the machine of rank 0.\n");
   print_limit(costs, ranks, threads, out);
 }
 

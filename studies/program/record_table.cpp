@@ -11,7 +11,8 @@
 
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/transient/record_facts.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/program/record_table.hpp"
+#include "studies/reading/quantities/units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -133,7 +134,7 @@ void warn_of_gap(const Study& study, const DrivingRecord& driving, std::ostream&
     if (!transient::has_gap(facts)) continue;
     fmt::print(out,
                "warning: {} by {}: no sample from {:.6g} to {}, {:.0f} times its usual interval of {}; {} "
-               "between stands for them\n",
+               "replaces them\n",
                driven_by(study, driving, record.of).what, record.name, facts.longest_from,
                with_unit(study, facts.longest_from + facts.longest, Quantity::time),
                facts.longest / facts.usual, with_unit(study, facts.usual, Quantity::time),
@@ -161,14 +162,13 @@ void warn_of_sampling(const Study& study, const DrivingRecord& driving, const pe
   if (fast == modes.frequency.end()) return;
   const auto mode = fast - modes.frequency.begin() + 1;
   const bool is_last = mode == static_cast<std::ptrdiff_t>(modes.frequency.size());
-  fmt::print(out,
-             "{}: {}: mode {}{} (period {}) {} {:.2g} samples in a period; {} between samples "
-             "{} what drives it{}\n",
-             mode == 1 ? "warning" : "note", driven_by(study, driving, driving.records.front().of).what, mode,
-             is_last ? "" : " and those above", with_unit(study, period(*fast), Quantity::time),
-             is_last ? "has" : "have", period(*fast) / longest,
-             is_spline ? "the cubic spline" : "straight lines", is_spline ? "distorts" : "weaken",
-             mode == 1 ? ": sample the record finer" : "");
+  fmt::print(
+      out,
+      "{}: {}: mode {}{} (period {}) {} {:.2g} samples per period; {} between samples {} what drives it{}\n",
+      mode == 1 ? "warning" : "note", driven_by(study, driving, driving.records.front().of).what, mode,
+      is_last ? "" : " and those above", with_unit(study, period(*fast), Quantity::time),
+      is_last ? "has" : "have", period(*fast) / longest, is_spline ? "the cubic spline" : "straight lines",
+      is_spline ? "distorts" : "weaken", mode == 1 ? ": sample the record finer" : "");
 }
 
 }  // namespace

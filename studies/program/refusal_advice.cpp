@@ -9,26 +9,26 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/study_changes.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/study_changes.hpp"
 
 namespace frahm::studies {
 
 std::string lines_of_changes(const std::vector<std::string>& changes) {
-  constexpr std::size_t most_told = 8;  // lines; of a study that shares but its name all differs
+  constexpr std::size_t most_lines = 8;  // lines; of a study that shares but its name all differs
   std::string text;
-  for (std::size_t i = 0; i < changes.size() && i < most_told; ++i) text += fmt::format("  {}\n", changes[i]);
-  if (changes.size() > most_told) text += fmt::format("  and {} more\n", changes.size() - most_told);
+  for (std::size_t i = 0; i < changes.size() && i < most_lines; ++i)
+    text += fmt::format("  {}\n", changes[i]);
+  if (changes.size() > most_lines) text += fmt::format("  and {} more\n", changes.size() - most_lines);
   return text;
 }
 
 std::string refusal_advice(const std::vector<std::string>& changes, const std::string& advice) {
   std::string text = lines_of_changes(changes);
   if (!text.empty()) text = "what changed:\n" + text;
-  return text + (advice.empty()
-                     ? "it is not replaced unasked: name another file with -o, or discard what is there "
-                       "with --fresh"
-                     : advice);
+  return text + (advice.empty() ? "it is not replaced without --fresh: name another file with -o, or discard "
+                                  "this one with --fresh"
+                                : advice);
 }
 
 void refuse_another_result(const std::filesystem::path& output, const StudyPlan& plan) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/fingerprint.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
 namespace frahm::studies {
 
@@ -20,12 +20,12 @@ std::string refusal_advice(const std::vector<std::string>& changes, const std::s
 void refuse_another_result(const std::filesystem::path& output, const StudyPlan& plan);
 
 // What has changed since the logs in the way of a run were made; none where the note of their study is not
-// beside them.
+// next to them.
 std::vector<std::string> changes_since_logs(const engine::ResumeRefused& refused, const Study& now,
                                             const std::filesystem::path& output);
 
-// The logs that a stopped run left beside an output, for a study that makes none: they would be in the way of
-// that run's resumption. They are refused, by engine::ResumeRefused, or discarded with the notes of their
+// The logs that a stopped run left next to an output, for a study that makes none: they would be in the way
+// of that run's resumption. They are refused, by engine::ResumeRefused, or discarded with the notes of their
 // studies. Throws engine::IoError, engine::Locked.
 void make_room_beside(const std::filesystem::path& output, const StudyPlan& plan, bool fresh);
 

@@ -7,10 +7,11 @@
 #include "results/report/page_data.hpp"
 #include "results/report/report_page.hpp"
 #include "studies/program/paper_figures.hpp"
+#include "studies/program/report_command.hpp"
 #include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -19,9 +20,9 @@ void require_page_parts() {
   if (results::has_report_page()) return;
   throw StudyError(
       rules::not_installed,
-      "report: this frahm was built without the page's parts, which come with Node.js and npm. Install them "
-      "(Debian: apt-get install nodejs npm), configure and build again (cmake --preset release && "
-      "cmake --build --preset release); all else in this program is complete");
+      "report: this frahm was built without the parts of the page, which need Node.js and npm. Install them "
+      "(Debian: apt-get install nodejs npm), configure and build again (cmake --preset release && cmake "
+      "--build --preset release); everything else in this program is complete");
 }
 
 void write_page(const ReportOptions& options, const results::MapReader& result, std::ostream& out) {
@@ -46,7 +47,7 @@ void write_page(const ReportOptions& options, const results::MapReader& result, 
 int report_command(const ReportOptions& options, std::ostream& out) {
   require_page_parts();
   if (!options.figures.empty() && !options.output.empty())
-    throw StudyError(rules::wrong_option, "--output: --figures writes into its own folder, no page");
+    throw StudyError(rules::wrong_option, "--output: --figures writes into its own folder and makes no page");
   const results::MapReader result = undamaged_result(options.file);
   if (options.figures.empty()) {
     write_page(options, result, out);

@@ -7,10 +7,11 @@
 #include <optional>
 
 #include "solvers/transient/motion_quantity.hpp"
+#include "studies/program/report_content.hpp"
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
-#include "studies/reading/name_pattern.hpp"
-#include "studies/record/stored_study.hpp"
+#include "studies/provenance/stored_study.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -20,7 +21,7 @@ std::optional<Study> study_of(const results::MapReader& result, const std::files
   try {
     return read_stored_study(result, file).study;
   } catch (const StudyError& error) {
-    std::cerr << fmt::format("frahm: the study in {} cannot be read again, the report goes without it: {}\n",
+    std::cerr << fmt::format("frahm: the study in {} cannot be read again, so the report leaves it out: {}\n",
                              file.string(), error.what());
     return std::nullopt;
   }
@@ -80,11 +81,10 @@ void check_size(const results::MapLayout& layout, std::size_t quantities, bool a
   double points = 1.0;
   for (const results::Axis& axis : layout.axes) points *= static_cast<double>(axis.size);
   if (points * static_cast<double>(quantities) <= most_numbers) return;
-  throw StudyError(
-      rules::too_large,
-      "the report would hold {} quantities at {:.4g} points; {} takes {:.0e} numbers at most: name "
-      "fewer by --quantities, or sweep a part of the map for it",
-      quantities, points, all_digits ? "Node.js" : "a browser", most_numbers);
+  throw StudyError(rules::too_large,
+                   "the report would hold {} quantities at {:.4g} points; {} takes at most {:.0e} numbers: "
+                   "name fewer with --quantities, or sweep only a part of the map for it",
+                   quantities, points, all_digits ? "Node.js" : "a browser", most_numbers);
 }
 
 // The names of recorded quantities that these names and patterns stand for, each once.

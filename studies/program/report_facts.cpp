@@ -11,10 +11,11 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/crank_motion.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -32,7 +33,7 @@ results::Column excitation_frequency(const Study& study) {
 
 // What the unit of the run's frequency is in rad/s, which the page takes periods from; none of SI.
 std::vector<results::Column> frequency_unit_in_si(const Study& study) {
-  const UsualUnit unit = recorded_frequency_unit(study);
+  const UsualUnit unit = frequency_unit_in_file(study);
   if (unit.si_factor == 1.0) return {};
   return {{.variable = {.name = "frequency_unit",
                         .unit = unit.text,
@@ -82,7 +83,7 @@ std::vector<results::Column> motion_facts(const Study& study) {
   return facts;
 }
 
-// The page calls them signals beside the masses, whose quantities they share.
+// The page calls them signals next to the masses, whose quantities they share.
 std::vector<results::Text> names_of_signals(const Study& study) {
   std::vector<std::string> names;
   for (const mechanics::Signal& signal : study.network.signals) names.push_back(signal.name);
@@ -116,7 +117,8 @@ bool is_nonlinear(const mechanics::Network& network) {
   });
 }
 
-// "force of 100 N on main", "motion of base, 0.0127 m"; where the amplitude follows the band it is told so.
+// "force of 100 N on main", "motion of base, 0.0127 m"; where the amplitude follows the band it is reported
+// so.
 std::string component_text(const Study& study, std::size_t k, double at_start, double at_end) {
   const mechanics::Network& network = study.network;
   const mechanics::Excitation& each = network.excitations[k];

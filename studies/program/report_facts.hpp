@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "results/report/page_data.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

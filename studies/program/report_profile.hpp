@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "results/report/page_data.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 

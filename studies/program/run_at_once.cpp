@@ -11,12 +11,12 @@
 #include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
 #include "results/map_writer.hpp"
-#include "studies/identification/identification_record.hpp"
-#include "studies/motion/motion_record.hpp"
+#include "studies/identification/identification_columns.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/refusal_advice.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/provenance.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/provenance.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -35,7 +35,8 @@ transient::Watch watch_for_stop(const engine::StopRequest& stop) {
 
 void refuse_sharing(const RunCommandOptions& options, const Study& study) {
   if (options.run.shard.count <= 1) return;
-  throw StudyError(rules::other_kind, "{}: {} is one piece of work, which an array of tasks cannot share",
+  throw StudyError(rules::other_kind,
+                   "{}: {} is a single piece of work, which an array of tasks cannot share",
                    study.source.name, kind_noun(study.kind()));
 }
 
@@ -49,38 +50,38 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
   }
 }
 
-void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+void write_file(const StudyPlan& plan, const RunFacts& facts, const std::filesystem::path& output,
                 const std::string& group, const std::vector<results::Column>& columns,
                 const std::vector<results::Text>& texts = {}) {
-  results::MapWriter writer(output, file_layout(plan, record));
+  results::MapWriter writer(output, file_layout(plan, facts));
   writer.write_columns(group, columns);
   if (!texts.empty()) writer.write_texts(group, texts);
-  writer.write_texts("provenance", provenance(plan, record, {}));
+  writer.write_texts("provenance", provenance(plan, facts, {}));
   writer.finish();
 }
 
 // Returns the exit code.
-int compute(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+int compute(const StudyPlan& plan, const RunFacts& facts, const std::filesystem::path& output,
             const transient::Watch& watch, std::ostream& out) {
   const Study& study = plan.study;
   const std::string group(kind_name(study.kind()));
   switch (study.kind()) {
     case StudyKind::identify: {
       const IdentificationResult result = identify(study, watch);
-      write_file(plan, record, output, identification_group, identification_columns(study, result),
+      write_file(plan, facts, output, identification_group, identification_columns(study, result),
                  identification_texts(study, result));
       print_identification(study, result, out);
       return result.fit.converged ? exit_code::done : exit_code::not_converged;
     }
     case StudyKind::decay: {
       const transient::FreeDecay decay = solve_decay(study, watch);
-      write_file(plan, record, output, group, decay_columns(study, decay));
+      write_file(plan, facts, output, group, decay_columns(study, decay));
       print_decay(study, decay, out);
       return exit_code::done;
     }
     case StudyKind::transient: {
       const transient::ForcedMotion motion = solve_transient(study, watch);
-      write_file(plan, record, output, group, transient_columns(study, motion));
+      write_file(plan, facts, output, group, transient_columns(study, motion));
       print_transient(study, motion, out);
       return exit_code::done;
     }
@@ -88,14 +89,14 @@ int compute(const StudyPlan& plan, const RunRecord& record, const std::filesyste
     case StudyKind::tune:
       break;
   }
-  throw std::logic_error(fmt::format("{} is no one piece of work", kind_noun(study.kind())));
+  throw std::logic_error(fmt::format("{} is not a single piece of work", kind_noun(study.kind())));
 }
 
 }  // namespace
 
 int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out) {
   refuse_sharing(options, study);
-  const RunRecord record{.command = options.command, .threads = 1, .started = utc_now()};
+  const RunFacts facts{.command = options.command, .threads = 1, .started = utc_now()};
   const StudyPlan plan = plan_without_map(std::move(study), options.set);
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
@@ -110,9 +111,10 @@ int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out
     const engine::StopRequest stop(options.run.time_budget,
                                    std::chrono::steady_clock::now() - options.run.begun,
                                    options.run.called_off);
-    code = compute(plan, record, output, watch_for_stop(stop), out);
+    code = compute(plan, facts, output, watch_for_stop(stop), out);
   } catch (const Stopped& stopped) {
-    fmt::print(std::cerr, "{}: nothing is kept of one piece of work, which begins anew\n", stopped.reason);
+    fmt::print(std::cerr, "{}: nothing is kept of a single piece of work, which starts again\n",
+               stopped.reason);
     return exit_code::stopped;
   }
   fmt::print(out, "\n{}\n", output.string());

@@ -4,6 +4,7 @@
 
 #include "engine/stop_signals.hpp"
 #include "studies/program/run_at_once.hpp"
+#include "studies/program/run_command.hpp"
 #include "studies/program/run_map.hpp"
 #include "studies/program/run_tuning.hpp"
 #include "studies/reading/settings.hpp"
@@ -22,7 +23,7 @@ int run_command(const RunCommandOptions& options, std::ostream& out) {
 int run_study(const RunCommandOptions& options, Study study, std::ostream& out) {
   if (study.map()) return run_map(options, std::move(study), out);
   if (!options.from.empty())
-    throw StudyError(rules::other_kind, "{}: {} has no points to take over from {}: --from is for maps",
+    throw StudyError(rules::other_kind, "{}: {} has no points to reuse from {}: --from is for maps",
                      study.source.name, kind_noun(study.kind()), options.from.string());
   if (study.kind() == StudyKind::tune) return run_tuning(options, std::move(study), out);
   return run_at_once(options, std::move(study), out);

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "engine/run.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
 struct RunCommandOptions {
   std::filesystem::path study;
-  std::vector<std::string> set;  // name=value, a unit behind the value or none
+  std::vector<std::string> set;  // name=value, a unit after the value or none
   std::filesystem::path from;    // of a map: the result to take points over from; empty: none
   std::string command;           // as typed, for the record
   engine::RunOptions run;        // output empty: the study's name with .h5, in the working directory
@@ -27,7 +27,7 @@ std::filesystem::path default_output(const std::filesystem::path& study);
 // engine::ResumeRefused when an output of another study is there, engine::IoError, results::StoreError.
 int run_command(const RunCommandOptions& options, std::ostream& out);
 
-// The same of a study that was read, and changed as options.set says; options.study is its name.
+// The same for a study that was read, and changed as options.set says; options.study is its name.
 int run_study(const RunCommandOptions& options, Study study, std::ostream& out);
 
 }  // namespace frahm::studies

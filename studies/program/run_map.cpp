@@ -10,7 +10,7 @@
 #include "studies/program/logged_run.hpp"
 #include "studies/program/map_table.hpp"
 #include "studies/program/study_note.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/provenance/finished_file.hpp"
 
 namespace frahm::studies {
 
@@ -27,10 +27,10 @@ int run_map(const RunCommandOptions& options, Study study, std::ostream& out) {
     if (earlier && !has_log_of(run.output, plan)) earlier->check(run.shard.index, run.shard.count);
     return job_of(plan, earlier ? &*earlier : nullptr);
   };
-  const auto make_file = [&](const RunRecord& record, const AssemblyOptions& how,
+  const auto make_file = [&](const RunFacts& facts, const AssemblyOptions& how,
                              const engine::OutputLock& held) {
     earlier.reset();  // the new file may replace it
-    return assemble(plan, record, how, held).finished;
+    return assemble(plan, facts, how, held).finished;
   };
   const auto tell = [&](std::optional<Effort> effort) {
     return print_map_table(plan, options.study, run.output, effort, out);

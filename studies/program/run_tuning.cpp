@@ -10,9 +10,9 @@
 #include "studies/program/logged_run.hpp"
 #include "studies/program/status_command.hpp"
 #include "studies/tuning/assemble_tuning.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 #include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuning_plan.hpp"
-#include "studies/tuning/tuning_record.hpp"
 #include "studies/tuning/tuning_table.hpp"
 #include "studies/tuning/tuning_words.hpp"
 
@@ -54,9 +54,9 @@ int run_tuning(const RunCommandOptions& options, Study study, std::ostream& out)
   if (run.output.empty()) run.output = default_output(options.study);
   const StudyPlan plan = plan_tuning(std::move(study), options.set);
   std::optional<TuningResult> result;
-  const auto make_file = [&](const RunRecord& record, const AssemblyOptions& how,
+  const auto make_file = [&](const RunFacts& facts, const AssemblyOptions& how,
                              const engine::OutputLock& held) {
-    result = assemble_tuning(plan, record, how, held);
+    result = assemble_tuning(plan, facts, how, held);
     return result.has_value();
   };
   const auto tell_what_stands = [&] {

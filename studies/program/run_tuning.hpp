@@ -4,8 +4,8 @@
 #include <iosfwd>
 
 #include "studies/program/run_command.hpp"
-#include "studies/reading/study.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/tuning/tuning_result.hpp"
 
 namespace frahm::studies {

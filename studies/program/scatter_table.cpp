@@ -13,8 +13,9 @@
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/map_chunks.hpp"
 #include "studies/map/output_quantities.hpp"
-#include "studies/reading/decimal_digits.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/program/scatter_table.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/reading/text/decimal_digits.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -106,7 +107,7 @@ void print_samples(const Study& study, std::ostream& out) {
     const Eigen::Map<const Eigen::VectorXd> values(axis.values.data(),
                                                    static_cast<Eigen::Index>(axis.values.size()));
     fmt::print(out, "  {:<16} {}; sampled mean {:.6g}, deviation {:.6g}\n",
-               study.parameters.list[axis.parameter].name, map->samples->told[p], samples::means(values)(0),
+               study.parameters.list[axis.parameter].name, map->samples->texts[p], samples::means(values)(0),
                std::sqrt(samples::covariance(values)(0, 0)));
   }
 }

@@ -8,9 +8,10 @@
 #include <string_view>
 
 #include "studies/program/exit_code.hpp"
-#include "studies/reading/element_keys.hpp"
-#include "studies/reading/key_groups.hpp"
-#include "studies/reading/study_keys.hpp"
+#include "studies/program/schema_command.hpp"
+#include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/keys/key_groups.hpp"
+#include "studies/reading/keys/study_keys.hpp"
 
 // JSON Schema from the table of keys: https://json-schema.org/draft/2020-12.
 namespace frahm::studies {
@@ -28,12 +29,12 @@ std::string path_of(const StudyKey& key) {
   return *key.section ? std::string(key.section) + "." + key.key : key.key;
 }
 
-// Of a list of tables.
+// For a list of tables.
 Json repetition_schema() {
   const Json number = {{"type", "integer"}, {"minimum", -1'000'000}, {"maximum", 1'000'000}};
   const Json range = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 3}};
   return {{"type", "object"},
-          {"description", "writes the table out for each: { i = [1, 60] }"},
+          {"description", "makes a table for each value of the index: { i = [1, 60] }"},
           {"additionalProperties", range},
           {"minProperties", 1}};
 }
@@ -290,7 +291,7 @@ Json mark_schema(const SectionForm& form) {
   return {{"anyOf", any}};
 }
 
-bool is_told_from_outside(const std::string& section) {
+bool is_decided_outside(const std::string& section) {
   return std::ranges::any_of(section_forms(), [&](const SectionForm& form) {
     return form.section == section && std::string_view(form.marks).find('.') != std::string_view::npos;
   });
@@ -323,7 +324,7 @@ Json rules_of_study() {
     rules.push_back({{"if", is_so}, {"then", addition_of("", kind.key, word)}});
   }
   for (const StudyKey& section : study_keys()) {
-    if (*section.section || !is_told_from_outside(section.key)) continue;
+    if (*section.section || !is_decided_outside(section.key)) continue;
     rules.push_back(rule_of_forms(section.key, [&](const Json& addition) {
       return Json{{"properties", {{section.key, addition}}}};
     }));
@@ -347,7 +348,7 @@ Json section_schema(const std::string& path) {
   for (const KeyGroup& group : key_groups()) {
     if (group.section == path && *group.of.of == '\0') rules.push_back(group_schema(group));
   }
-  if (!is_told_from_outside(path)) {
+  if (!is_decided_outside(path)) {
     if (Json rule = rule_of_forms(path, [](Json addition) { return addition; }); !rule.empty())
       rules.push_back(std::move(rule));
   }

@@ -25,7 +25,7 @@ damping = 250                             # N s/m: a bare number is SI
 
 [[element]]
 name = "guide"
-type = "coulomb"                          # dry friction; without static_force it holds as much as it slides with
+type = "coulomb"                          # dry friction; without static_force it sticks up to this force
 between = ["ground", "machine"]
 force = "F"
 )";
@@ -74,7 +74,7 @@ kind   = "sweep"
 title  = "A machine in a guide with friction"
 units  = "SI"                             # or "dimensionless"
 
-[parameters]                              # numbers that elements and axes speak of; expressions may use them
+[parameters]                              # numbers that elements, axes and expressions use
 speed = { value = 600, unit = "rpm" }
 M     = { value = 80, unit = "kg" }
 k     = { value = 320, unit = "kN/m" }
@@ -110,7 +110,7 @@ F = { value = 40, unit = "N" }
 )",
      false, false, R"(
 [decay]
-samples = 501                             # of the history; without duration: until it rests
+samples = 501                             # of the history; without `duration` until it rests
 
 [[initial]]
 node = "machine"
@@ -133,7 +133,7 @@ F     = { value = 40, unit = "N" }
      false, true, R"(
 [transient]
 sweep_to   = { value = 1200, unit = "rpm" }
-sweep_rate = { value = 100, unit = "rpm/s" }   # without both: at constant speed for `duration`
+sweep_rate = { value = 100, unit = "rpm/s" }   # without both: constant speed for `duration`
 samples    = 2001
 )"},
     {"tune",
@@ -160,7 +160,7 @@ objective = "minimax"                     # the least worst value in the band
 quantity  = "machine_peak"
 band      = { parameter = "speed", from = 300, to = 1200, unit = "rpm" }
 
-[[design]]                                # what may change, and within which bounds
+[[design]]                                # what may change, and its bounds
 parameter = "k_a"
 lower = 5
 upper = 50
@@ -188,7 +188,7 @@ F  = { value = 30, unit = "N" }
 x0 = { value = 5, unit = "mm" }
 )",
      false, false, R"(
-[[initial]]                               # of each record, at its first row
+[[initial]]                               # at the first row of each record
 node = "machine"
 displacement = "x0"
 

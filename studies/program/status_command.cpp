@@ -9,15 +9,16 @@
 
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
-#include "studies/identification/identification_record.hpp"
+#include "studies/identification/identification_columns.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
-#include "studies/reading/unit_words.hpp"
-#include "studies/record/fingerprint.hpp"
-#include "studies/record/finished_file.hpp"
-#include "studies/record/provenance_checksum.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/program/status_command.hpp"
+#include "studies/provenance/fingerprint.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/provenance_checksum.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -83,7 +84,7 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   }
 }
 
-// The logs beside a file, by their study: there are several studies only if a run was refused or a log put
+// The logs next to a file, by their study: there are several studies only if a run was refused or a log put
 // there by hand.
 struct FoundLogs {
   std::vector<std::pair<engine::LogHeader, std::vector<std::filesystem::path>>> studies;
@@ -122,7 +123,7 @@ bool is_part_of(const std::filesystem::path& file, const engine::LogHeader& logs
 
 std::string state_of_logs(const std::filesystem::path& file, const engine::LogHeader& logs) {
   if (!std::filesystem::exists(file)) return "unfinished";
-  return is_part_of(file, logs) ? "a part was made of the logs beside it, which go on"
+  return is_part_of(file, logs) ? "a part, made from the logs next to it; its run continues"
                                 : "a newer run is in progress or was stopped";
 }
 
@@ -134,7 +135,7 @@ int status_command(const std::filesystem::path& file, std::ostream& out) {
   if (is_there) refuse_study(file);
   const FoundLogs found = logs_beside(file);
   if (!is_there && found.studies.empty() && found.unreadable.empty() && found.cut_off.empty())
-    throw engine::IoError(file, "there is no such file, and no shard log beside it");
+    throw engine::IoError(file, "there is no such file, and no shard log next to it");
   for (const auto& [study, logs] : found.studies) {
     fmt::print(out, "{}: {}\n", file.string(), state_of_logs(file, study));
     print_log_status(file, logs, study, out);
@@ -142,7 +143,7 @@ int status_command(const std::filesystem::path& file, std::ostream& out) {
   for (const std::string& problem : found.unreadable)
     fmt::print(out, "{:<22} {}\n", "unreadable log", problem);
   for (const std::string& log : found.cut_off)
-    fmt::print(out, "{:<22} {}: it ends in its header, so nothing of it is lost; a run begins it anew\n",
+    fmt::print(out, "{:<22} {}: it ends in its header, so nothing is lost; a run starts it again\n",
                "empty log", log);
   if (is_there) print_file(file, out);
   return found.unreadable.empty() ? exit_code::done : exit_code::input_output;

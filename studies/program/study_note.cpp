@@ -15,9 +15,11 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/part_file.hpp"
-#include "studies/reading/assignment.hpp"
-#include "studies/reading/plain_text.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/program/study_note.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/assignment.hpp"
+#include "studies/reading/text/plain_text.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -101,11 +103,12 @@ void refuse_foreign_file(const std::filesystem::path& path, const std::filesyste
   refuse_link(path);
   const auto file = engine::File::open_if_present(path);
   if (!file || is_note(path) || file->holds_only_zeros() || has_log_of(output, plan)) return;
-  throw engine::IoError(path, "is there already and is no note of frahm; remove or rename it");
+  throw engine::IoError(path, "exists already and is not a note of frahm; remove or rename it");
 }
 
-// Other shards may be writing the same note at this moment: each renames its complete file. Where two machines
-// share no locks, each may take the other's part for one left by a killed process; then it is written again.
+// Other shards may be writing the same note at this moment: each renames its complete file. Where two
+// machines share no locks, each may take the other's part for one left by a killed process; then it is
+// written again.
 void write_whole(const std::filesystem::path& path, const std::string& text) {
   constexpr int most_attempts = 20;
   for (int attempt = 1;; ++attempt) {
@@ -119,7 +122,7 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   }
 }
 
-// The study of a note. If the note was moved with its tables and logs, the tables are beside the note and no
+// The study of a note. If the note was moved with its tables and logs, the tables are next to the note and no
 // longer at the study's old path.
 Study study_of_note(const StudyNote& note, const std::filesystem::path& path) {
   try {
@@ -188,13 +191,13 @@ std::optional<EarlierResult> source_of_logs(const std::filesystem::path& output,
 
 void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engine::LogHeader& header) {
   if (plan.log_header() == header) return;
-  throw engine::IoError(noted.note,
-                        "the study kept here no longer gives what the logs were made from: a table it reads, "
-                        "or this program, has changed");
+  throw engine::IoError(
+      noted.note,
+      "the study kept here no longer matches the logs: a table that it reads, or this program, has changed");
 }
 
 void remove_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
-  std::error_code ignored;  // a note left behind is harmless
+  std::error_code ignored;  // a note that is left is harmless
   std::filesystem::remove(note_path(output, plan.log_header().fingerprint), ignored);
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/fingerprint.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
-// The note beside an unfinished output that holds the study of its shard logs, so that these can be merged
+// The note next to an unfinished output that holds the study of its shard logs, so that these can be merged
 // without the study's file: `<output>.<fingerprint>.frahm-study`. Its lines: the path of the study, the
 // number of overrides, each override; then the text of the study. For a growing map, the identity of the
 // result it grows from follows the number of overrides, and that result's file name is on the next line.
@@ -17,7 +17,7 @@ namespace frahm::studies {
 // Returns whether there was no note before. Throws engine::IoError, also where another file has its name.
 bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan);
 
-// Whether a log of this study is beside the output. Throws engine::IoError.
+// Whether a log of this study is next to the output. Throws engine::IoError.
 bool has_log_of(const std::filesystem::path& output, const StudyPlan& plan);
 
 // A study read from its note.
@@ -28,9 +28,9 @@ struct NotedStudy {
   std::filesystem::path note;
 };
 
-// The study that the logs with this header belong to. outputs: files beside which its note may lie. Throws
-// engine::IoError if no note is beside them, StudyError if tables of the study are neither at their old path
-// nor beside the note, or can no longer be read.
+// The study that the logs with this header belong to. outputs: files next to which its note may lie. Throws
+// engine::IoError if no note is next to them, StudyError if tables of the study are neither at their old path
+// nor next to the note, or can no longer be read.
 NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
                            const engine::LogHeader& header);
 

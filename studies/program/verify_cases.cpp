@@ -110,7 +110,7 @@ void add_one_stop(std::vector<VerifyCase>& cases, VerifyCase& energy) {
 // Points where formulas have poles or are ill-conditioned: zeta = 0 at r = 1, and zeta about 1.
 void add_degenerate(std::vector<VerifyCase>& cases, VerifyCase& energy) {
   VerifyCase unbounded{"Undamped at resonance, f < pi/4: unbounded", 0.0};
-  VerifyCase bounded{"Undamped at and 1e-9 beside resonance, f > pi/4: amplitude", agreement};
+  VerifyCase bounded{"Undamped at and 1e-9 from resonance, f > pi/4: amplitude", agreement};
   VerifyCase critical{"Damping ratio 1, 1 +- 1e-9 and 1.2: amplitude", agreement};
   VerifyCase stuck{"Friction as large as the force: no motion", rounding};
   ClassicalSystem system(forced_mass({1}));

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "engine/mpi.hpp"
-#include "studies/record/build_facts.hpp"
+#include "studies/provenance/build_facts.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -19,7 +19,7 @@ std::string cpu_text() {
   const bool suits = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return fmt::format("built for {}; this one {} AVX2 and FMA", FRAHM_CPU, suits ? "has" : "LACKS");
 #else
-  return "built for any of this kind";
+  return "built for any processor of this kind";
 #endif
 }
 

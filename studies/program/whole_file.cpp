@@ -15,9 +15,10 @@
 #include "engine/output_lock.hpp"
 #include "results/part_file.hpp"
 #include "studies/program/figure_mark.hpp"
-#include "studies/reading/readable_file.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/record/finished_file.hpp"
+#include "studies/program/whole_file.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/reading/text/readable_file.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -71,13 +72,14 @@ void check_replaced(const std::filesystem::path& there, const std::filesystem::p
   if (!std::filesystem::is_regular_file(there, ignored) || std::filesystem::is_empty(there, ignored)) return;
   if (replaces == Replaces::own_table && !has_own_columns(there, made))
     throw engine::IoError(
-        there, "is there already and is no table with these columns; name another file, or remove it");
+        there, "exists already and is not a table with these columns; name another file, or remove it");
   if (replaces == Replaces::own_page && !is_page(there))
-    throw engine::IoError(there, "is there already and is no page of frahm; name another file, or remove it");
+    throw engine::IoError(there,
+                          "exists already and is not a page of frahm; name another file, or remove it");
   if (replaces == Replaces::own_figure && !has_figure_mark(text_of(there), there.extension().string()))
     throw engine::IoError(there,
-                          "is there already and is no figure of frahm, or one that was changed since; name "
-                          "another folder, or remove it");
+                          "exists already and is not a figure of frahm, or was changed since; name another "
+                          "folder, or remove it");
   if (replaces == Replaces::own_text) refuse_other_text(there, text_of(made));
 }
 
@@ -88,8 +90,8 @@ void refuse_other_text(const std::filesystem::path& there, std::string_view text
   if (!std::filesystem::is_regular_file(there, ignored) || std::filesystem::is_empty(there, ignored)) return;
   if (text_of(there) == text) return;
   throw engine::IoError(there,
-                        "is there already and differs from what would be written, as where it was changed by "
-                        "hand; name another file, or remove it");
+                        "exists already and differs from what would be written, perhaps because it was "
+                        "changed by hand; name another file, or remove it");
 }
 
 void require_place(const std::filesystem::path& path, const std::filesystem::path& made, Replaces replaces) {
@@ -127,10 +129,10 @@ void check_output_is_not_input(const std::filesystem::path& output, const std::f
                                std::string_view extension) {
   std::error_code error;
   if (std::filesystem::equivalent(output, input, error))
-    throw engine::IoError(output, "is the file that is read; name another for the output");
+    throw engine::IoError(output, "is the input file; name another file for the output");
   for (const std::filesystem::path& read : files_read()) {
     if (std::filesystem::equivalent(output, read, error))
-      throw engine::IoError(output, "is a file that the study reads; name another for the output");
+      throw engine::IoError(output, "is a file that the study reads; name another file for the output");
   }
   require_folder_of(output);
   if (output.extension() == ".toml" || output.extension() == ".h5") {

@@ -13,7 +13,7 @@ namespace frahm::studies {
 // hand. Any file may be if it is empty.
 enum class Replaces { anything, own_table, own_page, own_figure, own_text };
 
-// Writes a file whole or not at all: under another name beside it, then renamed (results::PartFile). One
+// Writes a file whole or not at all: under another name next to it, then renamed (results::PartFile). One
 // process at a time writes to a path. A device or a pipe at the path is written to directly. Throws
 // engine::IoError, also for a file that is not to be replaced; engine::Locked, results::StoreError.
 void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // What the parts of the extension module frahm._frahm share; the package frahm around it is for users.
 namespace frahm::python {

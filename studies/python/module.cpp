@@ -2,8 +2,8 @@
 
 #include "results/checked_apart.hpp"
 #include "studies/identification/identified_study.hpp"
+#include "studies/provenance/finished_file.hpp"
 #include "studies/python/binding.hpp"
-#include "studies/record/finished_file.hpp"
 
 namespace frahm::python {
 namespace {

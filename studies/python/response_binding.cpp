@@ -7,7 +7,10 @@
 #include "studies/program/point_report.hpp"
 #include "studies/python/binding.hpp"
 #include "studies/python/response_rows.hpp"
-#include "studies/reading/assignment.hpp"
+#include "studies/reading/map/grid_check.hpp"
+#include "studies/reading/settings.hpp"
+#include "studies/reading/study/assignment.hpp"
+#include "studies/reading/study/study_units.hpp"
 
 // Periodic responses in memory: of one point in full, and of rows of points.
 namespace frahm::python {

@@ -11,7 +11,8 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/reading/name_pattern.hpp"
+#include "studies/python/response_rows.hpp"
+#include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -47,8 +48,8 @@ void set_point(const RowGrid& grid, std::size_t point, std::span<double> paramet
   }
 }
 
-bool sweeps(const Study& study) {
-  return study.orbits_wanted().is_sweep();
+bool sweeps_slowly(const Study& study) {
+  return study.orbits_wanted().is_slow_sweep();
 }
 
 // Whether the excitation frequency depends on a number parameter.
@@ -57,8 +58,8 @@ bool sets_frequency(const Study& study, std::size_t parameter) {
   return std::ranges::binary_search(inputs, parameter);
 }
 
-void refuse_sweep_along(const Study& study, std::size_t along) {
-  if (!sweeps(study) || sets_frequency(study, along)) return;
+void refuse_slow_sweep_along(const Study& study, std::size_t along) {
+  if (!sweeps_slowly(study) || sets_frequency(study, along)) return;
   throw StudyError(
       rules::wrong_option,
       "{}: [orbits] sweeps the frequency, which does not depend on \"{}\": a row has to run along "
@@ -75,7 +76,7 @@ class RowTeam {
         quantities_(quantities),
         grid_(grid),
         stop_asked_(stop_asked),
-        pieces_(pieces_of(grid, sweeps(study))),
+        pieces_(pieces_of(grid, sweeps_slowly(study))),
         out_(out) {}
 
   std::size_t pieces() const { return pieces_.size(); }
@@ -161,12 +162,12 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const std:
     throw StudyError(rules::unknown_name, "{}: there is no quantity \"{}\"{}", study.source.name, name,
                      hint_of_unmatched(name, known));
   }
-  return periodic::with_always_recorded(std::move(called), study.network);
+  return periodic::with_always_stored(std::move(called), study.network);
 }
 
 RowResponses solve_rows(const Study& study, const std::vector<periodic::Quantity>& quantities, RowGrid grid,
                         int threads, const std::function<bool()>& stop_asked) {
-  refuse_sweep_along(study, grid.axes.back().parameter);
+  refuse_slow_sweep_along(study, grid.axes.back().parameter);
   RowResponses found = without_values(study, quantities, grid.points());
   RowTeam team(study, quantities, grid, stop_asked, found);
   const std::exception_ptr error =

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // Periodic responses along rows of points, in memory: the kernel of a map without tiles, logs and a file.
 namespace frahm::studies {

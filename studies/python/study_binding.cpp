@@ -3,8 +3,12 @@
 #include <cmath>
 
 #include "studies/python/binding.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 
 // A study as Python holds it: read from a file, a text or a dictionary.
 namespace frahm::python {

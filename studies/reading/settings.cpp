@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "studies/reading/assignment.hpp"
-#include "studies/reading/unit_words.hpp"
+#include <utility>
+
+#include "studies/reading/map/grid_check.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/assignment.hpp"
 
 namespace frahm::studies {
 
@@ -12,73 +15,24 @@ Study read_study_with(const std::filesystem::path& path, const std::vector<std::
   return with_settings(read_study(path), set);
 }
 
-Study with_settings(Study study, const std::vector<std::string>& set, std::string_view told_as) {
+Study with_settings(Study study, const std::vector<std::string>& set, std::string_view option) {
   if (set.empty()) return study;
   const std::vector<Assignment> assignments =
-      parse_assignments(study, told_as, fmt::format("{}", fmt::join(set, ",")));
+      parse_assignments(study, option, fmt::format("{}", fmt::join(set, ",")));
   return with_parameters(std::move(study), assignments);
 }
 
 std::vector<double> parameters_at(const Study& study, const std::vector<std::string>& at,
-                                  std::string_view told_as) {
+                                  std::string_view option) {
   std::vector<double> parameters = study.parameters.nominal();
   if (!at.empty()) {
     for (const Assignment& assignment :
-         parse_assignments(study, told_as, fmt::format("{}", fmt::join(at, ",")))) {
+         parse_assignments(study, option, fmt::format("{}", fmt::join(at, ",")))) {
       parameters[assignment.parameter] = assignment.value;
     }
   }
   check_point(study, parameters);
   return parameters;
-}
-
-SpokenValue spoken_value(const Study& study, std::size_t parameter, double si) {
-  const UsualUnit usual = usual_unit(study, parameter);
-  SpokenValue spoken{si / usual.si_factor, usual.text};
-  const Parameter& definition = study.parameters.list[parameter];
-  const bool is_si =
-      definition.quantity && (spoken.unit.empty() || spoken.unit == si_unit(*definition.quantity));
-  if (is_si) spoken.unit = written_si_unit(*definition.quantity);
-  if (study.dimensionless || is_pure_number(spoken.unit)) spoken.unit.clear();
-  return spoken;
-}
-
-std::string spoken_text(const Study& study, std::size_t parameter, double si) {
-  const SpokenValue spoken = spoken_value(study, parameter, si);
-  return fmt::format("{:.12g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
-}
-
-UsualUnit frequency_unit(const Study& study) {
-  for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
-    const Parameter& parameter = study.parameters.list[i];
-    if (parameter.in_frequency && parameter.quantity == Quantity::angular_frequency)
-      return usual_unit(study, i);
-  }
-  if (!study.values.omega.unit.text.empty()) return study.values.omega.unit;
-  for (const StudyValue* value : study.values_of_its_kind()) {
-    if (value->quantity == Quantity::angular_frequency && !value->unit.text.empty()) return value->unit;
-  }
-  return {};
-}
-
-UsualUnit recorded_frequency_unit(const Study& study) {
-  if (study.dimensionless) return {"1", 1.0};
-  const UsualUnit unit = frequency_unit(study);
-  return unit.text.empty() ? UsualUnit{"rad s-1", 1.0} : unit;
-}
-
-SpokenValue spoken_frequency(const Study& study, double omega) {
-  if (study.dimensionless) return {omega, ""};
-  const UsualUnit unit = frequency_unit(study);
-  const bool is_si = unit.text.empty() || unit.text == si_unit(Quantity::angular_frequency);
-  return {omega / unit.si_factor, is_si ? "rad/s" : unit.text};
-}
-
-std::string recorded_unit(const Study& study, std::size_t parameter) {
-  const Parameter& definition = study.parameters.list[parameter];
-  if (study.dimensionless) return "1";
-  if (definition.quantity) return std::string(si_unit(*definition.quantity));
-  return definition.unit ? coherent_unit(*definition.unit) : "1";
 }
 
 }  // namespace frahm::studies

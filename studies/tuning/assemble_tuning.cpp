@@ -5,12 +5,12 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
-#include "studies/record/array_tasks.hpp"
-#include "studies/record/assembly_stage.hpp"
-#include "studies/record/provenance.hpp"
+#include "studies/provenance/array_tasks.hpp"
+#include "studies/provenance/assembly_stage.hpp"
+#include "studies/provenance/provenance.hpp"
 #include "studies/tuning/optimum_check.hpp"
-#include "studies/tuning/optimum_record.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/tuning/optimum_columns.hpp"
+#include "studies/tuning/optimum_entry.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -22,11 +22,11 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
   if (missing.empty() || options.partial) return;
   throw engine::IoError(
       options.output,
-      fmt::format("{} of its {} starts are in no shard log yet{}; --partial makes a file of the rest",
+      fmt::format("{} of its {} starts are in no shard log yet{}; --partial makes a file of the others",
                   missing.size(), starts, missing_tasks_text(options.logs, missing)));
 }
 
-void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesystem::path& output,
+void write_file(const StudyPlan& plan, const RunFacts& run, const std::filesystem::path& output,
                 const TuningResult& result, std::uint64_t missing) {
   results::MapWriter writer(output, file_layout(plan, run));
   writer.write_columns(optimum_group, optimum_columns(plan.study, result));
@@ -38,11 +38,11 @@ void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesyst
 
 }  // namespace
 
-std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunRecord& run,
+std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunFacts& run,
                                             const AssemblyOptions& options, const engine::OutputLock&) {
   const engine::TileIndex index = engine::index_tiles(
       options.logs, plan.log_header(),
-      [&](std::uint64_t, std::span<const std::byte> record) { check_start(plan.study, record); });
+      [&](std::uint64_t, std::span<const std::byte> entry) { check_start(plan.study, entry); });
   const std::vector<std::uint64_t> missing = engine::missing_tiles(index);
   refuse_gaps(options, missing, plan.tiles);
   std::vector<StartResult> starts;

@@ -8,18 +8,18 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/bad_record.hpp"
+#include "engine/bad_entry.hpp"
 #include "results/utf8.hpp"
-#include "studies/tuning/optimum_record.hpp"
+#include "studies/tuning/optimum_entry.hpp"
 
 namespace frahm::studies {
 namespace {
 
-using engine::BadRecord;
+using engine::BadEntry;
 using tuning::Optimum;
 
 void require(bool holds, const char* what) {
-  if (!holds) throw BadRecord(fmt::format("{} is none of this study", what));
+  if (!holds) throw BadEntry(fmt::format("{} does not belong to this study", what));
 }
 
 // Within the bounds but for rounding, or NaN where there is none.
@@ -63,7 +63,7 @@ void check_optimum(const TuneChoice& tune, const Optimum& optimum) {
   try {
     results::check_utf8("reason", optimum.reason);
   } catch (const std::invalid_argument& reason) {
-    throw BadRecord(reason.what());
+    throw BadEntry(reason.what());
   }
   check_parameters(tune, optimum);
   check_counts(optimum);

@@ -6,7 +6,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
+#include "studies/tuning/schedule_table.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "results/map_reader.hpp"
-#include "studies/record/stored_study.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/provenance/stored_study.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/tuning/tuned_design.hpp"
 
 namespace frahm::studies {
@@ -16,7 +16,7 @@ struct StoredTuning {
   std::vector<double> band;           // where the responses are sampled, in the unit of the band
 };
 
-// Tables of the study are searched beside the result. Throws StudyError for a file without an optimum,
+// Tables of the study are searched next to the result. Throws StudyError for a file without an optimum,
 // results::StoreError.
 StoredTuning read_stored_tuning(const std::filesystem::path& file);
 

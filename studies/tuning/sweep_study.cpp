@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/reading/decimal_digits.hpp"
-#include "studies/reading/settings.hpp"
-#include "studies/reading/toml_building.hpp"
-#include "studies/reading/toml_reading.hpp"
-#include "studies/reading/toml_section.hpp"
-#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_units.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/decimal_digits.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
+#include "studies/tuning/sweep_study.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -179,7 +181,7 @@ SweepStudy run_up_study(const StoredTuning& stored, const std::string& stem) {
   entry_of(std::get<TomlTable>(entry_of(sections, "parameters")->value.content),
            study.parameters.list[band->parameter].name)
       ->value = toml_parameter(study, band->parameter, band->range.from);
-  // Of a tuning's output there are the signals alone, which a motion has too.
+  // For a tuning's output there are the signals alone, which a motion has too.
   std::erase_if(sections, [](const TomlEntry& entry) { return entry.key == "orbits"; });
   sections.push_back({"transient", {}, {{}, run_up_of(study, *band)}});
   TomlArray axes;

@@ -9,7 +9,7 @@
 namespace frahm::studies {
 
 // A study of kind "sweep" that maps the response at the optimum over the band, where the tuning sampled it:
-// its text, and the tables of its schedules (name of the file, CSV), which belong beside it.
+// its text, and the tables of its schedules (name of the file, CSV), which belong next to it.
 struct SweepStudy {
   std::string text;
   std::vector<std::pair<std::string, std::string>> tables;

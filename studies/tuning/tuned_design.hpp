@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/tuning/optimum.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 // The values of a tuning's design parameters, and with them of all parameters of its study.
 namespace frahm::studies {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "solvers/tuning/exchange/band_scan.hpp"
-#include "studies/record/group_columns.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/provenance/group_columns.hpp"
+#include "studies/tuning/optimum_columns.hpp"
 
 // Shared by the parts of the record of a tuning.
 namespace frahm::studies {
@@ -22,7 +22,7 @@ struct TuningAbout {
   TuningAbout(const Study& of_study, const TuningResult& of_result);
 
   double spoken_band(double si) const { return tune.band ? si / tune.band->unit.si_factor : si; }
-  // Of the certificate of a worst peak over a band, in the band's unit.
+  // For the certificate of a worst peak over a band, in the band's unit.
   std::optional<double> least_width_seen() const {
     if (!tune.band || tune.objective != tuning::Objective::minimax) return std::nullopt;
     return spoken_band(tuning::least_width_seen(tune.band->range));
@@ -39,8 +39,8 @@ struct TuningAbout {
 // A result with one number wherever there can be one, 1 in SI: all names of the record, and their units.
 TuningResult example_of(const Study& study);
 
-// Everything along the band: the responses, the schedule and the columns beside it; and the objectives of the
-// designs compared, which a variance has even without a band.
+// Everything along the band: the responses, the schedule and the columns next to it; and the objectives of
+// the designs compared, which a variance has even without a band.
 void add_band(const TuningAbout& about, GroupColumns& columns);
 
 // Every design parameter of several optima, a column for each knot of a schedule. prefix: of the names;

@@ -8,8 +8,8 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/tuning/optimum_check.hpp"
-#include "studies/tuning/optimum_record.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/tuning/optimum_columns.hpp"
+#include "studies/tuning/optimum_entry.hpp"
 #include "studies/tuning/tuning_task.hpp"
 
 namespace frahm::studies {
@@ -52,7 +52,7 @@ void compute_start(const Study& study, const tuning::Task& task, std::uint64_t s
 }  // namespace
 
 StudyPlan plan_tuning(Study study, std::vector<std::string> set) {
-  check_record_names(study);
+  check_names_in_file(study);
   StudyPlan plan = plan_without_map(std::move(study), std::move(set));
   plan.tiles = plan.study.tune()->starts;
   return plan;
@@ -81,7 +81,7 @@ engine::Job job_of_tuning(const StudyPlan& plan) {
       .make_kernel = make_kernel,
       .points = [](std::uint64_t) { return std::uint64_t{1}; },
       .failed = {},
-      .check = [&plan](std::uint64_t, std::span<const std::byte> record) { check_start(plan.study, record); },
+      .check = [&plan](std::uint64_t, std::span<const std::byte> entry) { check_start(plan.study, entry); },
       .evaluations = [count] { return count->load(); },
       .counted = "starts"};
 }

@@ -5,7 +5,7 @@
 
 #include "engine/run.hpp"
 #include "solvers/tuning/optimum.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
 namespace frahm::studies {
 

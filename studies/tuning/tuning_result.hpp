@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/tuning/optimum.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
 
@@ -37,7 +37,7 @@ std::size_t best_of(const std::vector<const tuning::Optimum*>& optima);
 TuningResult tuning_result(const Study& study, std::vector<StartResult> starts,
                            const std::function<bool()>& stop_asked);
 
-// Of a trade-off: whether another point of the front has an objective no higher under a lower limit, so that
+// For a trade-off: whether another point of the front has an objective no higher under a lower limit, so that
 // this one's limit gains nothing.
 bool is_dominated(const TuningResult& result, std::size_t limit);
 

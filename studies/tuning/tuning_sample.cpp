@@ -41,7 +41,7 @@ double curves_of(const TuneChoice& tune) {
   return sides * std::max(1.0, static_cast<double>(tune.scenarios.size()));
 }
 
-// Of each record and scenario: one for each round, most of which few starts need; more where the samples
+// For each record and scenario: one for each round, most of which few starts need; more where the samples
 // above a quantile are chosen again.
 void expect_motions(const TuneChoice& tune, TuningSample& sample) {
   const double motions = static_cast<double>(tune.peaks->records.size()) * curves_of(tune);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
 namespace frahm::studies {
 

@@ -9,10 +9,11 @@
 #include <ostream>
 
 #include "solvers/algebra/no_value.hpp"
-#include "studies/reading/unit_words.hpp"
+#include "studies/reading/quantities/unit_words.hpp"
 #include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
+#include "studies/tuning/tuning_table.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -94,7 +95,8 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
   if (about.tune.has_schedule())
     fmt::print(out, "  the best constant     {}\n", eight_digits(optimum.constant_objective, unit));
   if (!std::isnan(optimum.path_bound))
-    fmt::print(out, "  no schedule below     {} with these constants, as far as a grid shows\n",
+    fmt::print(out,
+               "  lower bound           {} for every schedule with these constants, as far as a grid shows\n",
                eight_digits(optimum.path_bound, unit));
   if (!std::isnan(optimum.certificate_gap))
     fmt::print(out, "{:<24}{:.3g} (relative){}\n", "certificate gap", optimum.certificate_gap,
@@ -108,13 +110,14 @@ void print_search(const TuningAbout& about, std::ostream& out) {
   const std::string limits_of_it = not_proved(about.study);
   if (limits_of_it.empty()) return;
   const tuning::SearchedPoints& searched = about.result.assessment.searched;
-  fmt::print(out,
-             "\n{:<24}of {} points of the band at the optimum {} have several stable responses, {} none\n",
-             "responses", searched.points, searched.several, searched.not_periodic);
+  fmt::print(
+      out,
+      "\n{:<24}of {} points of the band at the optimum, {} have several stable responses, {} have none\n",
+      "responses", searched.points, searched.several, searched.not_periodic);
   fmt::print(out, "{:<24}{}\n", "not proved", limits_of_it);
 }
 
-// Of a tuning over records: every motion's peak, before and after.
+// For a tuning over records: every motion's peak, before and after.
 void print_motions(const TuningAbout& about, std::ostream& out) {
   const auto names = scenario_names(about.study);
   const bool sampled = !about.tune.drawn.empty();  // of samples those that hold the design are enough
@@ -196,7 +199,7 @@ void print_front(const TuningAbout& about, std::ostream& out) {
                   outcome_words().at(static_cast<std::size_t>(optimum.outcome)));
   }
   if (!dominated.empty())
-    fmt::print(out, "{:>34}  a lower limit does as well\n", fmt::format("{}", fmt::join(dominated, ", ")));
+    fmt::print(out, "{:>34}  a lower limit is as good\n", fmt::format("{}", fmt::join(dominated, ", ")));
   const tuning::FrontEnds& ends = about.optimum.ends;
   if (!std::isnan(ends.most)) print_point(ends.most, ends.objective_at_most, "without limit");
   if (!std::isnan(ends.least)) print_point(ends.least, ends.objective_at_least, "least");

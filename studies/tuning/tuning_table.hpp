@@ -2,7 +2,7 @@
 
 #include <iosfwd>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "studies/tuning/tuning_result.hpp"
 
 namespace frahm::studies {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "studies/record/provenance.hpp"
+#include "studies/provenance/provenance.hpp"
 #include "studies/tuning/tuning_about.hpp"
 
 namespace frahm::studies {
@@ -34,7 +34,7 @@ class Factors {
     if (kept.unit == now.unit) return 1.0;
     const auto found = factors_.find({kept.unit, now.unit});
     if (found == factors_.end())
-      throw std::logic_error(fmt::format("{}: from {} to {} by no factor", kept.name, kept.unit, now.unit));
+      throw std::logic_error(fmt::format("{}: no factor converts {} to {}", kept.name, kept.unit, now.unit));
     return found->second;
   }
 
@@ -77,7 +77,7 @@ class TuningWords {
   void add(const std::string& group, const Study& kept_study, const Study& study, const Columns& kept,
            const Columns& now) {
     if (kept.size() != now.size())
-      throw std::logic_error("two tunings of one fingerprint have other records");
+      throw std::logic_error("two tunings with the same fingerprint have different records");
     Factors factors;
     factors.add(without_columns_of(kept_study, kept), without_columns_of(study, now));
     for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/rewording.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
 
 namespace frahm::studies {
 

@@ -177,8 +177,8 @@ int main(int argc, char** argv) {
     records.push_back(record_of(number));
   fmt::print("{:%F}, g++ {}\n\n", fmt::gmtime(std::time(nullptr)), __VERSION__);
   fmt::print(
-      "| slip force, kN | ms a history | of | peer, ms | of | Frahm is so many times as fast | largest "
-      "difference of "
+      "| slip force, kN | ms per history | histories | peer, ms | peer histories | speed-up of Frahm | "
+      "largest difference of "
       "the sway |\n|---|---|---|---|---|---|---|\n");
   Cost all;
   for (int band = 0; band < (smoke ? 1 : kBands); ++band) {

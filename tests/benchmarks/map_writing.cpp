@@ -29,6 +29,7 @@
 #include "engine/run.hpp"
 #include "results/storage.hpp"
 #include "studies/map/assemble.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/study_path.hpp"
 
 namespace {
@@ -111,8 +112,8 @@ void write_shards(const studies::MapPlan& plan, const std::filesystem::path& out
                                                         .progress = engine::ProgressStyle::none});
   const double millions = 1e-6 * static_cast<double>(plan.grid.points());
   fmt::print(
-      "  shard writing, {} threads: {:.2f} % of their time; {:.3f} thread seconds a million points, "
-      "computing them {:.2f}; {:.1f} s wall in all\n",
+      "  shard writing, {} threads: {:.2f} % of their time; {:.3f} thread seconds per million points, "
+      "computing them {:.2f}; {:.1f} s wall in total\n",
       summary.threads, 100.0 * times.between / (times.between + times.inside), times.between / millions,
       times.inside / millions, summary.seconds);
 }
@@ -134,9 +135,9 @@ void assemble(const studies::MapPlan& plan, const std::filesystem::path& output,
   const double megabytes = 1e-6 * bytes_of_point(plan) * static_cast<double>(plan.grid.points());
   const double millions = 1e-6 * static_cast<double>(plan.grid.points());
   fmt::print(
-      "  assembly, {} threads: {:.0f} MB to {:.0f} MB in {:.2f} s CPU, {:.2f} s wall: {:.0f} MB/s a core by "
-      "CPU, {:.0f} MB/s by the wall; "
-      "{:.3f} s CPU a million points; peak memory so far {:.0f} MB\n",
+      "  assembly, {} threads: {:.0f} MB to {:.0f} MB in {:.2f} s CPU, {:.2f} s wall: {:.0f} MB/s per core "
+      "by CPU, {:.0f} MB/s by the wall; "
+      "{:.3f} s CPU per million points; peak memory so far {:.0f} MB\n",
       threads, megabytes, 1e-6 * static_cast<double>(std::filesystem::file_size(made)), cpu, wall,
       megabytes / cpu, megabytes / wall, cpu / millions, peak_megabytes());
   std::filesystem::remove(made);
@@ -145,7 +146,7 @@ void assemble(const studies::MapPlan& plan, const std::filesystem::path& output,
 void measure(const studies::Study& study, const std::filesystem::path& folder) {
   const studies::MapPlan plan = studies::plan_map(study, {});
   const std::filesystem::path output = folder / "map.h5";
-  fmt::print("{}: {} points, {} variables, {:.0f} bytes a point in the file and {} in the log\n",
+  fmt::print("{}: {} points, {} variables, {:.0f} bytes per point in the file and {} in the log\n",
              study.source.name, plan.grid.points(), plan.variables.size(), bytes_of_point(plan),
              sizeof(double) * plan.variables.size());
   const int all = omp_get_num_procs();
@@ -160,7 +161,7 @@ studies::Study single_mass(int frictions) {
   std::string text(std::istreambuf_iterator<char>(file), {});
   const std::string points = "points = 25\n";
   const std::size_t at = text.find(points);
-  if (at == std::string::npos) throw std::runtime_error("den_hartog.toml has no axis of 25 points any more");
+  if (at == std::string::npos) throw std::runtime_error("den_hartog.toml no longer has an axis of 25 points");
   text.replace(at, points.size(), fmt::format("points = {}\n", frictions));
   return studies::parse_study(text, "den_hartog.toml");
 }

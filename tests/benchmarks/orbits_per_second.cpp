@@ -257,9 +257,9 @@ int main(int argc, char** argv) {
              periodic::nonstop::fastest_kernel().name);
 
   fmt::print(
-      "| map | points | us an orbit, peaks: shooting | fastest | ratio | standard: shooting | fastest | "
-      "ratio "
-      "| points left to shooting | of the time (peaks) |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "| map | points | us per orbit, peaks: shooting | fastest | ratio | standard: shooting | fastest | "
+      "ratio | points solved by shooting | their share of the time (peaks) "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   const Work small = whole(one_mass()), large = whole(rig(smoke ? 3 : 42));
   compare_ways(small, repetitions);
   compare_ways(whole(den_hartog()), repetitions);
@@ -274,13 +274,14 @@ int main(int argc, char** argv) {
   compare_instruction_sets(small, repetitions);
   compare_instruction_sets(large, repetitions);
 
-  fmt::print("\n| map | us an orbit from new elements | us three derivatives of a peak |\n|---|---|---|\n");
+  fmt::print(
+      "\n| map | us per orbit from new elements | us for three derivatives of a peak |\n|---|---|---|\n");
   time_gradients(small);
   time_gradients(whole(rig(3)));
 
   if (asked("--no-peer")) return 0;
   fmt::print(
-      "\n| map | peer | s a point | median error | largest | Frahm is so many times as fast "
+      "\n| map | peer | s per point | median error | largest | speed-up of Frahm "
       "|\n|---|---|---|---|---|"
       "---|\n");
   compare_peers(small, one_mass_peak, smoke ? 8 : 97);

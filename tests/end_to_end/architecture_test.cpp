@@ -69,26 +69,38 @@ TEST_CASE("rooms include each other only along the arrows") {
   }
 }
 
-// Within the solvers, from the ground up: each folder may include those before it.
-const std::vector<std::string> floors{
-    "laws",    "algebra", "samples", "mechanics", "flow",     "events",   "orbits",         "quantities",
-    "nonstop", "exact",   "smooth",  "transient", "response", "branches", "identification", "tuning"};
+// From the ground up: each folder of a room may include those before it.
+using Floors = std::vector<std::string>;
+const Floors of_solvers{"laws",     "algebra",    "samples",        "mechanics", "flow",   "events",
+                        "orbits",   "quantities", "nonstop",        "exact",     "smooth", "transient",
+                        "response", "branches",   "identification", "tuning"};
+const Floors of_reading{"text",   "quantities", "keys",  "study", "data_files",
+                        "system", "map",        "kinds", "."};  // ".": its own files
 
-TEST_CASE("a folder of the solvers includes only folders below it") {
-  const auto floor_of = [](const fs::path& file) {
-    const std::string folder = std::next(file.begin())->string();
-    return std::find(floors.begin(), floors.end(), folder) - floors.begin();
+void check_floors(const fs::path& room, const Floors& floors) {
+  const auto floor_of = [&](const fs::path& file) {
+    const std::string folder = file.lexically_relative(room).begin()->string();
+    const bool is_own_file = folder == file.filename();
+    return std::find(floors.begin(), floors.end(), is_own_file ? "." : folder) - floors.begin();
   };
-  for (const auto& file : sources_of("solvers")) {
+  for (const auto& file : sources_of(room.string())) {
     const bool is_known = floor_of(file) < static_cast<std::ptrdiff_t>(floors.size());
     INFO(file.string());
     CHECK(is_known);
     for (const Include& include : includes_of(file)) {
-      if (fs::path(include.name).begin()->string() != "solvers") continue;
+      if (!include.name.starts_with(room.string() + "/")) continue;
       INFO("includes " << include.name);
       CHECK(floor_of(include.name) <= floor_of(file));
     }
   }
+}
+
+TEST_CASE("a folder of the solvers includes only folders below it") {
+  check_floors("solvers", of_solvers);
+}
+
+TEST_CASE("a folder of the reading of studies includes only folders below it") {
+  check_floors("studies/reading", of_reading);
 }
 
 TEST_CASE("no source is a body that does not compile alone") {
@@ -109,10 +121,10 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
   // HDF5's two files are two halves of one adapter, which share a header of their own.
   const std::map<std::string, std::set<std::string>> adapters{
       {"hdf5", {"results/hdf5.cpp", "results/hdf5_dataset.cpp", "results/hdf5_call.hpp"}},
-      {"toml\\+\\+|toml", {"studies/reading/toml_reading.cpp"}},
+      {"toml\\+\\+|toml", {"studies/reading/text/toml_reading.cpp"}},
       {"CLI", {"studies/program/command_line.cpp"}},
-      {"udunits2", {"studies/reading/units.cpp"}},
-      {"suitesparse/cholmod", {"studies/reading/matrix_market.cpp"}},
+      {"udunits2", {"studies/reading/quantities/units.cpp"}},
+      {"suitesparse/cholmod", {"studies/reading/data_files/matrix_market.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},
       {"mpi", {"engine/mpi.cpp"}},
       {"libdeflate", {"results/deflate.cpp"}},
@@ -121,13 +133,13 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
        {"solvers/identification/half_power.cpp", "solvers/identification/identification.cpp",
         "solvers/response/resonance_peak.cpp", "solvers/samples/scatter.cpp",
         "solvers/tuning/exchange/band_maxima.cpp", "solvers/tuning/stages/leap_place.cpp"}},
-      {"boost/tokenizer", {"studies/reading/csv_table.cpp"}},
+      {"boost/tokenizer", {"studies/reading/text/csv_table.cpp"}},
       {"boost/random",
        {"solvers/samples/sequence.cpp", "solvers/tuning/stages/starts.cpp",
         "studies/motion/measurements.cpp"}},
       {"Ip.*", {"solvers/tuning/problem/ipopt.cpp"}},
       {"nlopt", {"solvers/tuning/problem/nlopt.cpp"}},
-      {"xxhash", {"studies/record/fingerprint.cpp"}},
+      {"xxhash", {"studies/provenance/fingerprint.cpp"}},
       {"nlohmann",
        {"studies/program/point_json.cpp", "studies/program/schema_command.cpp",
         "results/report/page_data.cpp"}},

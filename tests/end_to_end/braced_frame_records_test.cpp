@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
 

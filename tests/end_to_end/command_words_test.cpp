@@ -51,9 +51,9 @@ TEST_CASE("a wrong value of an option is one line in our words, with what is pos
   CHECK(complaint({"completion", "bsh"}) ==
         "frahm completion: SHELL: \"bsh\" is not possible; did you mean \"bash\"?");
   CHECK(complaint({"run", "s.toml", "--threads", "x"}) ==
-        "frahm run: --threads: \"x\" is no whole number from 0 to 4096");
+        "frahm run: --threads: \"x\" is not a whole number from 0 to 4096");
   CHECK(complaint({"export", "s.toml", "--rate", "1", "--rate", "2"}) ==
-        "frahm export: --rate is given 2 times, and can be given once");
+        "frahm export: --rate is given 2 times, but can be given only once");
   CHECK(complaint({"run", "s.toml", "-o"}) == "frahm run: --output lacks its value, FILE");
   CHECK(complaint({"run", "s.toml", "--thread", "2"}) ==
         "frahm run: unknown option --thread; did you mean \"--threads\"?");

@@ -105,9 +105,9 @@ TEST_CASE("The table of a decay says how it ends: what is left, cut off, at rest
                             Catch::Contains("1 extremum,") && !Catch::Contains("1e-06"));
   const std::string whole = folder.write("whole.toml", one_mass(""));
   CHECK_THAT(out(whole, "c=0.4"),
-             Catch::Contains("never stops; after") && Catch::Contains("e-07 of the first"));
+             Catch::Contains("never stops; after") && Catch::Contains("e-07 of the initial one"));
   CHECK_THAT(out(whole, "c=40000"),
-             Catch::Contains("still moving after") && Catch::Contains("unless [decay] has a duration"));
+             Catch::Contains("still moving after") && Catch::Contains("give [decay] a duration"));
   const std::string still =
       folder.write("still.toml", runs::replaced(one_mass(""), "displacement = 0.1", "displacement = 0"));
   CHECK_THAT(out(still, "c=0.4"), Catch::Contains("at rest from the start"));

@@ -7,7 +7,8 @@
 #include <set>
 
 #include "results/map_reader.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/small_tunings.hpp"

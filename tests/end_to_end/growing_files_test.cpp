@@ -85,10 +85,10 @@ TEST_CASE("a title or [report] that is changed is written by a rerun, without a 
   folder.write("small.toml", text);
   const auto told = run(study, output);
   CHECK(told.code == 0);
-  CHECK_THAT(told.out, Catch::Contains("computed already") &&
-                           Catch::Contains("what changed is written into " + output + ", and nothing is") &&
-                           Catch::Contains("title: \"small\", now \"other\"") &&
-                           Catch::Contains("[report]: new"));
+  CHECK_THAT(told.out,
+             Catch::Contains("computed already") &&
+                 Catch::Contains("nothing is computed; these changes are written into " + output + ":") &&
+                 Catch::Contains("title: \"small\", now \"other\"") && Catch::Contains("[report]: new"));
   CHECK(read_map(output).layout.title == "other");
   CHECK_THAT(run(study, output).out, Catch::Contains("computed already") && !Catch::Contains("written"));
   CHECK_THAT(run(study, output, {"--from", output}).out,
@@ -106,7 +106,7 @@ TEST_CASE("a map never takes the place of one it grows from that has points it h
     const auto outcome = run(folder.write("map.toml", text), output, arguments);
     CHECK(outcome.code == 5);
     CHECK_THAT(outcome.err, Catch::Contains(output + " is the result of the same physics for other points") &&
-                                Catch::Contains("holds " + lost + " points that this grid has not"));
+                                Catch::Contains("holds " + lost + " points that this grid does not have"));
     CHECK(variable_size(read_map(output)) == 9 * 61);
     CHECK(folder.names() == Names{"map.h5", "map.toml"});
   };
@@ -134,7 +134,7 @@ TEST_CASE("what cannot be grown from is refused: another system, no map, no comm
   const std::string kept = provenance(folder / "old.h5", "fingerprint_physics");
   CHECK_THAT(refused(small, folder / "old.h5", 5), Catch::Contains("another system (" + kept) &&
                                                        Catch::Contains("this study has") &&
-                                                       Catch::Contains("leave --from out"));
+                                                       Catch::Contains("leave out --from"));
   REQUIRE(run(study, folder / "old.h5", {"--fresh"}).code == 0);
   CHECK_THAT(refused(oscillator() + axis("f", 2, 3, 5) + axis("r", 0.2, 2, 31), folder / "old.h5", 2),
              Catch::Contains("\"f\" has no value in common"));
@@ -157,7 +157,7 @@ TEST_CASE("what cannot be grown from is refused: another system, no map, no comm
   CHECK(folder.names() == Names{"new.toml", "old.h5", "small.toml"});
 }
 
-TEST_CASE("logs of a map that grows are never mixed with others, and the message says how to go on") {
+TEST_CASE("logs of a map that grows are never mixed with others, and the message says how to resume") {
   const Folder folder;
   const std::string study = folder.write("new.toml", larger), output = folder / "new.h5";
   REQUIRE(run(folder.write("old.toml", small), folder / "old.h5").code == 0);
@@ -177,7 +177,7 @@ TEST_CASE("logs of a map that grows are never mixed with others, and the message
   CHECK(run(study, output).code == 0);
   std::filesystem::remove(output);
   begun(from);
-  CHECK_THAT(refused({}), Catch::Contains("add --from " + folder / "old.h5" + " to go on"));
+  CHECK_THAT(refused({}), Catch::Contains("add --from " + folder / "old.h5" + " to resume"));
   CHECK_THAT(refused(other), Catch::Contains("begun with --from " + folder / "old.h5"));
   CHECK(run(study, output, from).code == 0);
   // Another grid has logs there:
@@ -245,8 +245,9 @@ TEST_CASE(
   CHECK_THAT(frahm({"status", apart}).out,
              Catch::StartsWith(apart + ": unfinished\npoints ") && Catch::Contains(" of 549 done"));
   REQUIRE(frahm({"merge", apart, "--partial"}).code == 0);
-  CHECK_THAT(frahm({"status", apart}).out,
-             Catch::StartsWith(apart + ": a part was made of the logs beside it, which go on\npoints "));
+  CHECK_THAT(
+      frahm({"status", apart}).out,
+      Catch::StartsWith(apart + ": a part, made from the logs next to it; its run continues\npoints "));
   REQUIRE(run(study, apart, {"--from", output, "--shard", "1/2"}).code == 0);
   CHECK(frahm({"merge", apart}).code == 0);
   CHECK_THAT(frahm({"status", apart}).out, Catch::StartsWith(apart + ": finished\n"));
@@ -314,7 +315,7 @@ TEST_CASE("a value that no run records is told by its place and never taken over
     CHECK(outcome.code == 6);
     CHECK_THAT(outcome.err,
                Catch::Contains(earlier + ":/" + variable + "[2,7]: ") &&
-                   Catch::Contains(value == 77.0 ? "77 is none of its flags" : "-7 is no count"));
+                   Catch::Contains(value == 77.0 ? "77 is not one of its flags" : "-7 is no count"));
     CHECK_FALSE(std::filesystem::exists(output));
     REQUIRE(run(study, earlier, {"--fresh"}).code == 0);
     CHECK(run(folder / "new.toml", output, {"--from", earlier, "--fresh"}).code == 0);

@@ -21,7 +21,7 @@ constexpr double kOtherUnit = 1e-14;  // relative: a number in one unit, and con
 
 // A folder with the studies and data of the fingerprint's test.
 void copy_mutants(const Folder& folder) {
-  const std::filesystem::path from = FRAHM_SOURCE_DIR "/tests/studies/record/mutants";
+  const std::filesystem::path from = FRAHM_SOURCE_DIR "/tests/studies/provenance/mutants";
   for (const auto& entry : std::filesystem::directory_iterator(from))
     std::filesystem::copy_file(entry.path(), folder / entry.path().filename().string());
 }
@@ -124,9 +124,10 @@ void check_words(const Folder& folder, const std::string& text, const Passages& 
   const Outcome words = run(study, output);
   INFO(words.out << words.err);
   CHECK(words.code == code);
-  CHECK_THAT(words.out, Catch::Contains("everything is computed already") &&
-                            Catch::Contains("is written into " + output + ", and nothing is computed:") &&
-                            Catch::Contains(told));
+  CHECK_THAT(words.out,
+             Catch::Contains("everything is computed already") &&
+                 Catch::Contains("nothing is computed; these changes are written into " + output + ":") &&
+                 Catch::Contains(told));
   const Outcome again = run(study, output);
   CHECK_THAT(again.out, Catch::Contains("everything is computed already") && !Catch::Contains("written"));
   REQUIRE(run(study, fresh).code == code);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "studies/map/grid.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/end_to_end/runs.hpp"
 
 namespace law_error_test {

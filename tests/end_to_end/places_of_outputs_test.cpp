@@ -58,7 +58,7 @@ TEST_CASE(
     for (const Names& more : {Names{}, Names{"--fresh"}}) {
       const auto refused = run(study, thesis, more);
       CHECK(refused.code == 6);
-      CHECK_THAT(refused.err, Catch::Contains("is not a result of frahm; give another -o"));
+      CHECK_THAT(refused.err, Catch::Contains("is not a result of frahm; name another file with -o"));
       CHECK(run(study, empty, more).code == 6);
       const auto itself = run(study, link, more);
       CHECK(itself.code == 6);
@@ -132,7 +132,7 @@ TEST_CASE("logs of a stopped run are in the way of any other study, and discarde
     const auto refused = frahm(other);
     CHECK(refused.code == 5);
     CHECK_THAT(refused.err, Catch::Contains("results of different studies are never mixed") &&
-                                Catch::Contains("or discard what is there with --fresh"));
+                                Catch::Contains("or discard this one with --fresh"));
     CHECK(folder.names() == before);
     Names asked = other;
     asked.emplace_back("--fresh");
@@ -150,7 +150,8 @@ TEST_CASE("a result has not the name of a study, nor a study that of a result") 
   for (const std::string& study : {map, decay}) {
     const auto refused = run(study, folder / "q.toml");
     CHECK(refused.code == 2);
-    CHECK_THAT(refused.err, Catch::Contains("q.toml: has the name of a study; name this output .h5"));
+    CHECK_THAT(refused.err,
+               Catch::Contains("q.toml: has the name of a study; the name of this output must end in .h5"));
   }
   const auto refused = frahm({"new", "sweep", folder / "a.h5"});
   CHECK(refused.code == 2);
@@ -259,7 +260,7 @@ TEST_CASE("a run refused for a foreign log leaves nothing, and a file named as i
   for (const Names& more : {Names{}, Names{"--fresh"}}) {
     const auto refused = run(study, output, more);
     CHECK(refused.code == 6);
-    CHECK_THAT(refused.err, Catch::Contains(*note) && Catch::Contains("is no note of frahm"));
+    CHECK_THAT(refused.err, Catch::Contains(*note) && Catch::Contains("is not a note of frahm"));
   }
   CHECK(text_of(folder / *note) == "my thesis");
   CHECK(folder.names() == Names{*note, "small.toml"});

@@ -65,7 +65,7 @@ TEST_CASE("a study error is told with its place and leaves no file") {
   CHECK(folder.names() == Names{"wrong.toml"});
 }
 
-TEST_CASE("a result that was cut off is called damaged, and --fresh computes it anew") {
+TEST_CASE("a result that was cut off is called damaged, and --fresh computes it again") {
   const Folder folder;
   const std::string map = folder.write("small.toml", small), output = folder / "small.h5";
   const std::string decay =
@@ -76,8 +76,8 @@ TEST_CASE("a result that was cut off is called damaged, and --fresh computes it 
     folder.write("small.h5", whole.substr(0, whole.size() / 2));
     const auto refused = run(study, output);
     CHECK(refused.code == 6);
-    CHECK_THAT(refused.err, Catch::Contains("small.h5: is a result that is damaged, or of a later version") &&
-                                Catch::Contains("--fresh computes it anew"));
+    CHECK_THAT(refused.err, Catch::Contains("small.h5: is a result that is damaged or has a later version") &&
+                                Catch::Contains("--fresh computes it again"));
     CHECK(run(study, output, {"--fresh"}).code == 0);
     CHECK(text_of(output).size() > whole.size() / 2);
     CHECK(frahm({"status", output}).code == 0);
@@ -121,7 +121,7 @@ TEST_CASE("logs are told of and merged in a folder that was moved with its study
   moved.write("zeta.csv", "0,0.1\n1,0.3\n");
   const auto another = frahm({"merge", output});
   CHECK(another.code == 6);
-  CHECK_THAT(another.err, Catch::Contains("no longer gives what the logs were made from"));
+  CHECK_THAT(another.err, Catch::Contains("no longer matches the logs"));
   std::filesystem::remove(moved / "zeta.csv");
   const auto without = frahm({"merge", output});
   CHECK(without.code == 2);

@@ -292,7 +292,7 @@ TEST_CASE("rig_scatter.toml: the samples have the covariance that the rig's iden
   CHECK_THAT(refused("\"A\""),
              Catch::Contains("parameters: identify_rig_damping_law.h5 has no estimate \"A\""));
   CHECK_THAT(refused("\"x0_low\""), Catch::Contains("no parameter is called \"x0_low\""));
-  CHECK_THAT(refused("\"m\""), Catch::Contains("\"m\" has an axis already"));
+  CHECK_THAT(refused("\"m\""), Catch::Contains("\"m\" already has an axis"));
   const Map map = runs::read_map(folder / "rig_scatter.h5");
   const auto columns = MapReader(folder / "identify_rig_damping_law.h5").columns("identification");
   const auto column = [&](const std::string& name) {

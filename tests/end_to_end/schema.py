@@ -57,7 +57,7 @@ def keys(section, node):
 
 # The readers allow the keys of the table that the schema is printed from; each is one that a reader asks for.
 tables = ("study_keys.cpp", "study_words.hpp")
-readers = [*sources.glob("studies/reading/*.?pp"), sources / "solvers/mechanics/element_table.cpp"]
+readers = [*sources.glob("studies/reading/**/*.?pp"), sources / "solvers/mechanics/element_table.cpp"]
 asked_somewhere = {word for each in readers if each.name not in tables for word in re.findall(r'"([\w.]+)"', each.read_text())}
 asked_somewhere |= {part for word in asked_somewhere for part in word.split(".")}  # read_tables(..., "excitation.force")
 unread = [f"{section}.{key}" for section, key, _ in keys("", schema) if key != "repeat" and key not in asked_somewhere]
@@ -67,7 +67,7 @@ assert not unread, f"no reader asks for {unread}"
 asks = re.compile(r"\.(?:find|require|text|text_or|identifier|number|boolean_or|integer_or|choice|choice_as<[\w:]+>)\(\s*\"(\w+)\"")
 all_keys = {key for _, key, _ in keys("", schema)} | set(schema["properties"])
 of_values = {"value", "unit", "table", "of", "extremum"}  # of numbers, of parameters, and a column of data
-for source in sorted(sources.glob("studies/reading/*.cpp")):
+for source in sorted(sources.glob("studies/reading/**/*.cpp")):
     asked = set(asks.findall(source.read_text()))
     assert asked <= all_keys | of_values, (source, asked - all_keys - of_values)
 
@@ -133,12 +133,12 @@ not_text not_toml not_finite unreadable_file wrong_file no_header wrong_row doub
 # Of the other rules, by what the reader says.
 PARTLY_BEYOND = [
     ("out_of_range", r" at .* = |within|scenario|record \"", "a value that follows from parameters"),
-    ("out_of_range", r"outside|times the rod|is no value of this axis|below the force|beside a static_force", "one value beside another"),
-    ("out_of_range", r"distribution lies outside|mode: is|of a mean of 0", "one number of a distribution beside another"),
+    ("out_of_range", r"outside|times the rod|is not a value of this axis|below the force|if there is a static_force", "one value beside another"),
+    ("out_of_range", r"of the distribution lies between|mode: is|to a mean of 0", "one number of a distribution beside another"),
     ("out_of_range", r"point \d+.*must be|force .* at 0|at rest a damper|falls at velocity", "the points of a table together"),
-    ("out_of_range", r"along: .* a factor is of a size", "the size of a factor, which has a unit"),
-    ("out_of_range", r"numbers rise|spacing = \"log\"|too low for the ground", "the ends of a range beside each other"),
-    ("out_of_range", r"height|looks over up to|weight: |has no value", "numbers behind expressions, or of a list"),
+    ("out_of_range", r"along: .* the size of a factor must be", "the size of a factor, which has a unit"),
+    ("out_of_range", r"numbers must rise|spacing = \"log\"|too low for the ground", "the ends of a range beside each other"),
+    ("out_of_range", r"height|searches up to|weight: |has no value", "numbers behind expressions, or of a list"),
     ("wrong_length", r"stiffnesses|ratios are given|names? (is|are) given|heights for|cannot advance together|: .*csv", "lists of one length"),
     ("empty", r"has no stop on either side", "infinity, which JSON has not"),
     ("wrong_type", r"path of a dataset|whole number, found the number", "columns of HDF5; 3.0 is whole for JSON"),
@@ -146,13 +146,13 @@ PARTLY_BEYOND = [
     ("wrong_type", r"found the text \"\{", "{n} for a number, without its repeat"),
     ("missing_key", r"\"frequency\"|\"duration\" is missing|\"band\" is missing|\"file\" is missing", "what depends on other sections"),
     ("missing_key", r"columns|reference_frequency|added_mass|static_displacement|force / stiffness", "what depends on the columns of the data"),
-    ("missing_key", r"what is uncertain is missing", "an empty list of what is uncertain"),
+    ("missing_key", r"the uncertain parameters are missing", "an empty list of what is uncertain"),
     ("missing_section", r"of order 1 or more|nothing moves|\[excitation\] and none was measured|\[\[initial\]\]", "what other sections ask for"),
-    ("other_kind", r"without an \[\[axis\]\]|over records|over a band|axis of records|a tuning is one of samples", "forms of a kind"),
-    ("key_without_use", r"has no effect: |\"crank\" to be cut|cut at this order|shows this response|constant and has no", "what this system makes useless"),
-    ("key_without_use", r"fitted; a|it is tuned|runs over the band|go along it|does not go with time|order 0", "a name or a column beside another"),
+    ("other_kind", r"without an \[\[axis\]\]|over records|over a band|axis of records|a tuning must have samples", "forms of a kind"),
+    ("key_without_use", r"has no effect: |\"crank\" to be cut|cut at this order|shows this response|constant, so it has no", "what this system makes useless"),
+    ("key_without_use", r"fitted, so a|it is tuned|runs over the band|follow it|cannot be combined with time|order 0", "a name or a column beside another"),
     ("key_without_use", r"has no use here; it is the mass added", "what depends on the columns of the data"),
-    ("key_without_use", r"over records|under records|of samples|is of files|\[\[excitation.record\]\]|is a scenario", "records and samples of other sections"),
+    ("key_without_use", r"over records|under records|of samples|needs samples|belongs to files|\[\[excitation.record\]\]|is a scenario", "records and samples of other sections"),
     ("key_without_use", r"\[\[design\]\]|schedule|there is no band|a variance has no|a variance under white noise|belongs to (start|objective)", "forms of a tuning"),
 ]
 

@@ -76,7 +76,7 @@ TEST_CASE("a second merge says that all is done, and removes what a killed one h
   const std::string bytes = text_of(parts);
   const auto again = frahm({"merge", parts});
   CHECK(again.code == 0);
-  CHECK_THAT(again.out, Catch::Contains("parts.h5 is finished already, nothing is left to merge"));
+  CHECK_THAT(again.out, Catch::Contains("parts.h5 is finished already; nothing is left to merge"));
   CHECK(frahm({"merge", parts, left}).code == 0);  // named, as the first time
   std::filesystem::copy_file(kept, left);
   CHECK(frahm({"merge", parts}).code == 0);
@@ -100,7 +100,8 @@ TEST_CASE("merge does not replace the result of another study") {
     if (partial) arguments.emplace_back("--partial");
     const auto outcome = frahm(arguments);
     CHECK(outcome.code == 5);
-    CHECK_THAT(outcome.err, Catch::Contains("another system") && Catch::Contains("give merge another file"));
+    CHECK_THAT(outcome.err,
+               Catch::Contains("another system") && Catch::Contains("name another file to make"));
     CHECK(text_of(result) == bytes);
   }
   CHECK(frahm({"merge", others}).code == 0);  // nothing of it was lost
@@ -138,7 +139,8 @@ TEST_CASE("a file made beside a shard still at work is made, and the shard's log
     const auto held = ::frahm::engine::open_locked(log, ::frahm::engine::owner_offset);
     const auto outcome = run(study, result);
     CHECK(outcome.code == 0);
-    CHECK_THAT(outcome.err, Catch::Contains("one is left: " + log.string()) && Catch::Contains("in use by"));
+    CHECK_THAT(outcome.err,
+               Catch::Contains("one log remains: " + log.string()) && Catch::Contains("in use by"));
     CHECK(std::filesystem::exists(log));
   }
   CHECK(run(study, result).code == 0);  // everything is computed already
@@ -170,7 +172,7 @@ TEST_CASE("status tells the tasks of every number of shards, and tiles where the
   const auto two = frahm({"status", parts});
   CHECK_THAT(two.out, Catch::Contains("missing tasks          1 of 2: --array=1\n") &&
                           Catch::Contains("missing tasks          1 of 4: --array=3\n") &&
-                          Catch::Contains("any one of these arrays completes the rest"));
+                          Catch::Contains("each of these arrays alone completes the rest"));
   for (const std::string& name : folder.names()) {
     if (name.ends_with(".frahm-study")) std::filesystem::remove(folder / name);
   }

@@ -6,7 +6,8 @@
 #include <iterator>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
@@ -86,7 +87,7 @@ TEST_CASE("run_up.toml: the resonance passed in a run-up stays below that of the
 TEST_CASE("A transient of a wrong sweep, or of a network that cannot move, is refused with its reason") {
   const runs::Outcome same = runs::frahm({"run", study_path("run_up"), "-o", "-", "--set", "omega=1000 rpm"});
   CHECK(same.code == 2);
-  CHECK_THAT(same.err, Catch::Contains("sweep_to: is the frequency at which the motion begins"));
+  CHECK_THAT(same.err, Catch::Contains("sweep_to: is also the frequency at which the motion begins"));
   const runs::Outcome still = runs::frahm({"check", study_path("run_up"), "--set", "M=0 kg"});
   CHECK(still.code == 2);
   CHECK_THAT(still.err, Catch::Contains("mass matrix"));

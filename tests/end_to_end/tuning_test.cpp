@@ -227,9 +227,9 @@ TEST_CASE("a tuning stopped by its time budget keeps its finished starts and goe
     stopped = tune(study, file, {"--time-budget", budget});
     INFO(budget << ": " << stopped.out << stopped.err);
     REQUIRE(stopped.code == 4);
-    if (stopped.err.find("begins anew") == std::string::npos) break;
+    if (stopped.err.find("starts again") == std::string::npos) break;
   }
-  CHECK_THAT(stopped.err, Catch::Contains("goes on from there"));
+  CHECK_THAT(stopped.err, Catch::Contains("resumes from there"));
   CHECK_THAT(frahm({"status", file}).out, Catch::Contains("of 200"));
   REQUIRE(tune(study, file).code == 0);
   CHECK(columns_of(file)["start_objective"].size() == 200);
@@ -276,7 +276,7 @@ TEST_CASE("the exported sweep of a schedule runs as it is and gives the recorded
     folder.write(std::filesystem::path(changed).filename().string(), before + "# by hand\n");
     const Outcome refused = frahm(export_again);
     CHECK(refused.code == 6);
-    CHECK_THAT(refused.err, Catch::Contains(changed + ": is there already and differs"));
+    CHECK_THAT(refused.err, Catch::Contains(changed + ": exists already and differs"));
     CHECK(runs::text_of(changed) == before + "# by hand\n");
     folder.write(std::filesystem::path(changed).filename().string(), before);
   }

@@ -44,7 +44,7 @@ TEST_CASE("a file of the lock's name that is no lock is refused and stays as it 
   const std::string work = "measured by hand";
   std::ofstream(lock_path(scratch.output())) << work;
   CHECK_THROWS_WITH(OutputLock(scratch.output()),
-                    Contains("map.h5.frahm-lock") && Contains("is no lock of frahm"));
+                    Contains("map.h5.frahm-lock") && Contains("is not a lock of frahm"));
   std::ifstream file(lock_path(scratch.output()));
   CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == work);
 }

@@ -33,7 +33,7 @@ std::uint64_t good_tiles(const std::filesystem::path& path) {
   const File file = File::open_if_present(path).value();
   const auto header = read_header(file);
   if (!header) return 0;
-  read_records(file, *header, [&](std::uint64_t tile, auto, std::span<const std::byte> payload) {
+  read_entries(file, *header, [&](std::uint64_t tile, auto, std::span<const std::byte> payload) {
     right = right && tile == count && std::ranges::equal(payload, sample(tile));
     ++count;
   });

@@ -129,11 +129,11 @@ TEST_CASE("several threads read tiles from more logs than are open at once, in a
   TileReader reader(index);
   std::atomic<std::uint64_t> right = 0, next_stride = 0;
   const auto error = run_team(4, [&](const auto&) {
-    Bytes record;
+    Bytes entry;
     const std::uint64_t stride = 12 * next_stride++ + 7;  // 7, 19, ... share no factor with 900
     for (std::uint64_t i = 0; i < many.tiles; ++i) {
       const std::uint64_t tile = i * stride % many.tiles;
-      if (std::ranges::equal(reader.read(tile, record), sample(tile))) ++right;
+      if (std::ranges::equal(reader.read(tile, entry), sample(tile))) ++right;
     }
   });
   CHECK(error == nullptr);
@@ -146,8 +146,8 @@ TEST_CASE("a log removed while its tiles are read is an error naming it") {
   const TileIndex index = index_all(scratch);
   TileReader reader(index);
   std::filesystem::remove(log_path(scratch.output(), "a"));
-  Bytes record;
-  CHECK_THROWS_WITH(reader.read(1, record), Contains("map.h5.a.frahm-log") && Contains("was removed while"));
+  Bytes entry;
+  CHECK_THROWS_WITH(reader.read(1, entry), Contains("map.h5.a.frahm-log") && Contains("was removed while"));
 }
 
 TEST_CASE("removed logs are gone, and a log that vanished is passed over") {

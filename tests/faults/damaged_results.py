@@ -248,7 +248,7 @@ REFUSED = {
     "a scale of two dimensions": (flat_scale, "one dimension"),
     "an axis of size zero": (empty_axis, "axis"),
     "2^61 values": (endless, "has more values"),
-    "2^36 values and none stored": (sparse, "cannot be in"),
+    "2^36 values and none stored": (sparse, "do not fit in"),
     "a text for a number": (text_for_number, "must be numbers"),
     "flags out of range": (wrong_flags, "flag value"),
 }
@@ -363,7 +363,7 @@ def check_reruns(bench):
         damaged = place.read(OUTPUT)
         outcome = place.run("--progress", "none")
         assert outcome.code == 6 and "computed already" not in outcome.out, f"{name}: {outcome}"
-        assert f"{OUTPUT}:/{name}: cannot read" in outcome.err and "--fresh computes it anew" in outcome.err, f"{name}: {outcome}"
+        assert f"{OUTPUT}:/{name}: cannot read" in outcome.err and "--fresh computes it again" in outcome.err, f"{name}: {outcome}"
         assert place.read(OUTPUT) == damaged and place.names() == [OUTPUT], f"{name}: {place.names()}"
     assert place.run("--progress", "none", "--fresh").code == 0
     assert "computed already" in place.run("--progress", "none").out
@@ -377,7 +377,7 @@ def check_reruns(bench):
         place.write(name, data)
     damage(place.path(OUTPUT), "main_peak")
     outcome = place.call("merge", OUTPUT)
-    assert outcome.code == 6 and "remove it, and merge makes it anew" in outcome.err, outcome
+    assert outcome.code == 6 and "remove it, and merge makes it again" in outcome.err, outcome
     assert set(beside) < set(place.names()), place.names()
     os.remove(place.path(OUTPUT))
     assert place.call("merge", OUTPUT).code == 0 and place.names() == [OUTPUT], place.names()

@@ -161,7 +161,7 @@ def freeze(launcher, bench, study, expected, at_call, thaws):
     """The last of the ranks freezes when it has finished a tile; the job ends without it."""
     place = bench.place(study)
     environment = dict(place.environment(Fault(at_call, "freeze")), FAULT_RANK=str(RANKS - 1))
-    given_up = "has not been heard of for 2 s"
+    given_up = "has been silent for 2 s"
     with open(place.folder + ".told", "a+") as told:
         process = launcher.start(place, RANKS, environment, ("--rank-silence", "2s"), stderr=told)
         frozen = wait_for(lambda: [pid for pid, state in ranks_of(process).items() if state == "T"], "a frozen rank")

@@ -154,7 +154,7 @@ def check_own_outputs(bench):
             place.write(name, b"time [s],x [mm]\n0,1\n" if name == "measured.csv" else b"<!doctype html>\n<p>mine</p>\n")
             data = place.read(name)
             outcome = place.call(*command, name)
-            assert outcome.code == 6 and name in outcome.err and "is there already" in outcome.err, f"{command}: {outcome}"
+            assert outcome.code == 6 and name in outcome.err and "exists already" in outcome.err, f"{command}: {outcome}"
             assert place.read(name) == data, f"{command} {name}"
         name = "own.html" if command[0] == "report" else command[0] + ".csv"
         for _ in range(2):  # the second replaces the first

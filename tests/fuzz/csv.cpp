@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <string>
 
-#include "studies/reading/csv_table.hpp"
-#include "studies/reading/lookup_table.hpp"
-#include "studies/reading/study_source.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/quantities/lookup_table.hpp"
+#include "studies/reading/quantities/units.hpp"
+#include "studies/reading/text/csv_table.hpp"
+#include "studies/reading/text/study_source.hpp"
 #include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/outcome.hpp"
 

@@ -1,6 +1,6 @@
 // Any text as an expression of three parameters. What is read has one value, whatever it is evaluated on, and
 // the dimension of its value can be asked for.
-#include "studies/reading/expression.hpp"
+#include "studies/reading/quantities/expression.hpp"
 
 #include <array>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/dual.hpp"
-#include "studies/reading/expression_dimension.hpp"
+#include "studies/reading/quantities/dual.hpp"
+#include "studies/reading/quantities/expression_dimension.hpp"
 #include "tests/fuzz/outcome.hpp"
 
 namespace {

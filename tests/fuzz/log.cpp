@@ -11,7 +11,7 @@
 #include "engine/io_error.hpp"
 #include "engine/log_format.hpp"
 #include "engine/tile_index.hpp"
-#include "studies/map/tile_record.hpp"
+#include "studies/map/tile_entry.hpp"
 #include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/outcome.hpp"
 
@@ -25,16 +25,16 @@ const engine::LogHeader study{.fingerprint = {"physics", "grid"}, .tiles = 8};
 
 // A record of a tile, read, is written as it was.
 void read_tile(std::span<const std::byte> payload) {
-  studies::TileRecord record;
+  studies::TileEntry entry;
   try {
-    studies::decode(payload, values_of_tile, record);
+    studies::decode(payload, values_of_tile, entry);
   } catch (const std::runtime_error&) {  // a record cut short
     return;
   }
   engine::Bytes again;
-  studies::encode(record, again);
+  studies::encode(entry, again);
   if (!std::ranges::equal(again, payload)) std::abort();
-  if (studies::count_failed(payload, values_of_tile) != record.failed.size()) std::abort();
+  if (studies::count_failed(payload, values_of_tile) != entry.failed.size()) std::abort();
 }
 
 Outcome read_log(std::span<const std::uint8_t> bytes) {
@@ -58,12 +58,12 @@ Outcome read_log(std::span<const std::uint8_t> bytes) {
 
 // A log of records: a byte names the tile, a byte the length of the payload that follows.
 Outcome read_records(std::span<const std::uint8_t> bytes) {
-  engine::Bytes log = engine::encode_header(study), record;
+  engine::Bytes log = engine::encode_header(study), entry;
   while (bytes.size() >= 2) {
     const std::uint64_t tile = bytes[0];
     const auto payload = bytes.subspan(2, std::min<std::size_t>(bytes[1], bytes.size() - 2));
-    engine::encode_record(engine::study_mark(study), tile, std::as_bytes(payload), record);
-    log.insert(log.end(), record.begin(), record.end());
+    engine::encode_entry(engine::study_mark(study), tile, std::as_bytes(payload), entry);
+    log.insert(log.end(), entry.begin(), entry.end());
     bytes = bytes.subspan(2 + payload.size());
   }
   return read_log({reinterpret_cast<const std::uint8_t*>(log.data()), log.size()});

@@ -2,8 +2,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "studies/reading/matrix_file.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/data_files/matrix_file.hpp"
+#include "studies/reading/data_files/matrix_market.hpp"
+#include "studies/reading/text/study_source.hpp"
 #include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/outcome.hpp"
 

@@ -1,6 +1,6 @@
 // Any text as a study: read and planned as `frahm check` does, up to its modes at the first point, or
 // refused.
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "studies/map/first_modes.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/program/modes_table.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/fuzz/outcome.hpp"
 
 namespace {

@@ -24,7 +24,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kOrbit =
-    1e-8;  // of an orbit, beside its size: what the integrator's tolerance is chosen for
+    1e-8;  // of an orbit, next to its size: what the integrator's tolerance is chosen for
 constexpr double kLinear = 1e-9;      // of the response without friction
 constexpr double kBalance = 1e-7;     // energy put in less energy lost, relative
 constexpr double kPaperSlope = 1e5;   // [s/m], of the rig's paper
@@ -183,7 +183,7 @@ TEST_CASE(
   const History history = smooth.response().history(frahm::periodic::phases_of_a_period(2));
   const auto at_start = [&](std::size_t column) { return history.columns[column][0]; };
   const std::array<double, 4> start{at_start(0), at_start(2), at_start(1), at_start(3)};
-  // From 1e-3 beside the orbit: within 40 periods the multiplier 0.72 brings it back to 2e-9 of that.
+  // From 1e-3 next to the orbit: within 40 periods the multiplier 0.72 brings it back to 2e-9 of that.
   std::array<double, 4> beside = start;
   for (double& component : beside) component *= 1.001;
   const auto end = rig_integrated(values, kPaperSlope, beside, 40);
@@ -195,7 +195,7 @@ TEST_CASE(
 
 // B of X_arctan = X + (A + B ln(slope)) / slope, see studies/rig/law_error_slope.toml: the response at the
 // maximum to a kick |a+| dt at each reversal, dt slope / ln(slope) = (2 f/pi) (1/a-^2 - 1/a+^2). From just
-// behind one reversal to just behind the next the perturbation z = (dx, dv) goes as -D E z + (0, kick), D =
+// after one reversal to just after the next the perturbation z = (dx, dv) goes as -D E z + (0, kick), D =
 // diag(1, a+/a-), E free decay over half a period.
 double predicted_log_coefficient(double r, double zeta, double f) {
   const ClosedForm response = non_stop_response(r, zeta, f);
@@ -261,7 +261,7 @@ TEST_CASE("where no arctan orbit is found there is a status and a reason, and no
     INFO(name);
     CHECK(std::isnan(smooth[name]));
   }
-  // What is damped so weakly that the integrator's errors add up over some 1e5 periods is refused.
+  // What is damped so weakly that the integrator's errors add up over about 1e5 periods is refused.
   const auto weak = smooth.solve(with_slope(single_mass_values(1.0, 1e-6, 0.0), kPaperSlope));
   CHECK(weak.status == Status::failed);
   CHECK_THAT(weak.reason, Catch::Contains("damped too weakly") && Catch::Contains("estimated error"));

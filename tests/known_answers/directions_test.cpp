@@ -185,7 +185,7 @@ TEST_CASE("an inclined spring, damper and guide act along their direction and le
 }
 
 // A rack on a machine drives a pinion of radius r with a flywheel of inertia J, through teeth that yield. By
-// hand: a mass J/r^2 behind a spring. With rigid teeth the flywheel is an inerter of J/r^2, written as one
+// hand: a mass J/r^2 after a spring. With rigid teeth the flywheel is an inerter of J/r^2, written as one
 // that acts along the angle x/r.
 TEST_CASE("a flywheel behind a rack and pinion is a mass of J/r^2, and behind rigid teeth an inerter") {
   const double r = 0.03, J = 0.004;

@@ -144,7 +144,7 @@ TEST_CASE("A cubic of zero leaves the linear response") {
   }
 }
 
-// Of the first harmonic alone, 3/4 a A^3 + (1 - r^2) A = P cos(lag): amplitudes near the two stable orbits.
+// For the first harmonic alone, 3/4 a A^3 + (1 - r^2) A = P cos(lag): amplitudes near the two stable orbits.
 TEST_CASE("A hard spring has two stable orbits at one frequency, as harmonic balance has them") {
   const Duffing of{1.6, 0.1, 0.2, 1.0};
   const HarmonicBalance large(of, 3.3), small(of, 0.65);

@@ -278,7 +278,7 @@ TEST_CASE(
                                     .second = {0.1, 0.0}};
   };
   const ForcedMotion motion = forced_motion(
-      network, values_at, {}, {.from = 0.3, .sweep = {1.8, 0.03}, .duration = 60.0, .samples = 20001});
+      network, values_at, {}, {.from = 0.3, .run_up = {1.8, 0.03}, .duration = 60.0, .samples = 20001});
   REQUIRE(motion.failure.empty());
   CHECK(motion.stairs > 100);
   check_balance(motion.energy);
@@ -292,7 +292,7 @@ TEST_CASE(
     work += weight * h * 0.4 * omega * omega * std::cos(phase) * history.velocity[0][i];
     rubbed += weight * h * 0.05 * std::abs(history.velocity[0][i]);
   }
-  constexpr double kStairs = 1e-5;  // the motion is known to some 1e-6 of its peak
+  constexpr double kStairs = 1e-5;  // the motion is known to about 1e-6 of its peak
   CHECK_THAT(motion.energy.input, WithinRel(work, kStairs));
   CHECK_THAT(motion.energy.dissipated[1], WithinRel(rubbed, kStairs));
 }
@@ -311,7 +311,7 @@ TEST_CASE(
   const mechanics::NetworkValues values{.mass = {m}, .element = {k, c, b}, .excitation = {{1.0, 0.0}}};
   const ForcedMotion motion =
       forced_motion(network, always(values), {{1.0}, {0.0}},
-                    {.from = from, .sweep = {to, alpha}, .duration = (to - from) / alpha, .samples = 20001});
+                    {.from = from, .run_up = {to, alpha}, .duration = (to - from) / alpha, .samples = 20001});
   REQUIRE(motion.failure.empty());
   check_balance(motion.energy);
   // The force on the support, all that moves the mass, at the support's velocity y'; y = cos(phi).
@@ -325,7 +325,7 @@ TEST_CASE(
     work -= weight * h * m * -history.acceleration[0][i] * y_1;
     damped += weight * h * c * (v - y_1) * (v - y_1);
   }
-  constexpr double kStairs = 1e-5;  // the motion is known to some 1e-6 of its peak
+  constexpr double kStairs = 1e-5;  // the motion is known to about 1e-6 of its peak
   CHECK_THAT(motion.energy.input, WithinRel(work, kStairs));
   CHECK_THAT(motion.energy.dissipated[1], WithinRel(damped, kStairs));
 }
@@ -342,7 +342,7 @@ TEST_CASE("Elements that change in a run-up put in what they change of the energ
   // Without a force: all the work is the spring's, 0.5 k' x^2.
   const ForcedMotion motion =
       forced_motion(network, stiffening, {{1.0}, {}},
-                    {.from = 1.0, .sweep = {3.0, 0.2}, .duration = 10.0, .samples = 20001});
+                    {.from = 1.0, .run_up = {3.0, 0.2}, .duration = 10.0, .samples = 20001});
   REQUIRE(motion.failure.empty());
   check_balance(motion.energy);
   double work = 0.0;

@@ -276,7 +276,7 @@ bool EventIntegrator::is_consistent(const std::vector<Index>& at_rest, const std
   return true;
 }
 
-// Of all consistent modes of the contacts at rest, those with most of them stuck.
+// For all consistent modes of the contacts at rest, those with most of them stuck.
 void EventIntegrator::choose(const std::vector<Index>& at_rest) {
   if (at_rest.empty()) return;
   int best = -1;

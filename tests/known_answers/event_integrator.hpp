@@ -17,7 +17,7 @@ class EventIntegrator {
  public:
   explicit EventIntegrator(const mechanics::LinearSystem& system);
 
-  // Beside its harmonics: displacements of the prescribed nodes, or a derivative of them, and forces on the
+  // Next to its harmonics: displacements of the prescribed nodes, or a derivative of them, and forces on the
   // masses, at a time. Between two calls of advance_to they must be smooth.
   struct Recorded {
     std::function<Eigen::VectorXd(double t, int derivative)> motion;

@@ -60,7 +60,7 @@ RowVectorXd ExponentialIntegrator::harmonic(std::size_t node, int derivative) co
   return form;
 }
 
-// Of derivative 2 the supports' part alone: that of the masses is not a state.
+// For derivative 2 the supports' part alone: that of the masses is not a state.
 RowVectorXd ExponentialIntegrator::motion(const mechanics::Element& element, int derivative) const {
   RowVectorXd form = RowVectorXd::Zero(size_);
   for (const auto& [node, factor] : element.along) {

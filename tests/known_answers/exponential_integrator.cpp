@@ -175,7 +175,7 @@ void ExponentialIntegrator::pass_contact(std::size_t j, std::size_t which) {
   if (mode == Mode::stuck) {
     const bool drops = contact.static_limit > contact.limit;
     mode = released;
-    zeros_[j] = {drops ? 1 : 2, 0};  // u' grows like t where the force drops, else like t^2
+    zeros_[j] = {drops ? 1 : 2, 0};  // u' grows like t where the force drops, otherwise like t^2
     choose(drops ? stuck_contacts() : std::vector<std::size_t>{});
     return;
   }
@@ -233,7 +233,7 @@ bool ExponentialIntegrator::is_consistent(const std::vector<std::size_t>& at_res
   return true;
 }
 
-// Of all consistent modes of the contacts at rest, those with most of them stuck.
+// For all consistent modes of the contacts at rest, those with most of them stuck.
 void ExponentialIntegrator::choose(const std::vector<std::size_t>& at_rest) {
   int combinations = 1, best = -1;
   for (std::size_t i = 0; i < at_rest.size(); ++i) combinations *= 3;

@@ -99,7 +99,7 @@ TEST_CASE(
 // x'' + 2 zeta x' + x = p(omega) cos(phi), phi = from t + alpha t^2/2, by Boost.odeint alone.
 struct SweptOscillator {
   double zeta, from, alpha;
-  bool unbalance;  // p = omega^2, else 1
+  bool unbalance;  // p = omega^2, otherwise 1
 
   std::vector<double> at(const std::vector<double>& times, std::vector<double> x) const {
     namespace odeint = boost::numeric::odeint;
@@ -136,7 +136,7 @@ TEST_CASE("Running up and down through resonance is the integrated motion, withi
     const double duration = std::abs((to - swept.from) / swept.alpha);
     const ForcedMotion motion = forced_motion(
         periodic::single_mass(), values_at, {{0.2}, {-0.1}},
-        {.from = swept.from, .sweep = {to, std::abs(swept.alpha)}, .duration = duration, .samples = 301});
+        {.from = swept.from, .run_up = {to, std::abs(swept.alpha)}, .duration = duration, .samples = 301});
     REQUIRE(motion.failure.empty());
     const double error =
         largest_difference(motion.history.displacement[0], swept.at(motion.history.time, {0.2, -0.1}));
@@ -164,7 +164,7 @@ TEST_CASE("A run-up of a support that is felt through an inerter has the angular
   const NetworkValues values{.mass = {m}, .element = {k, c, b}, .excitation = {{1.0, 0.0}}};
   const ForcedMotion motion =
       forced_motion(network, always(values), {{1.0}, {0.0}},
-                    {.from = from, .sweep = {to, alpha}, .duration = (to - from) / alpha, .samples = 201});
+                    {.from = from, .run_up = {to, alpha}, .duration = (to - from) / alpha, .samples = 201});
   REQUIRE(motion.failure.empty());
   namespace odeint = boost::numeric::odeint;
   using State = std::vector<double>;
@@ -243,7 +243,7 @@ TEST_CASE(
   constexpr double zeta = 0.02, f = 0.7, from = 0.2, alpha = 0.02;
   const mechanics::NetworkValues values = periodic::single_mass_values(1.0, zeta, f);
   for (const double end : {20.0, 45.0, 70.0}) {
-    const ForcedOptions options{.from = from, .sweep = {1.6, alpha}, .duration = end, .samples = 201};
+    const ForcedOptions options{.from = from, .run_up = {1.6, alpha}, .duration = end, .samples = 201};
     const ForcedMotion motion = forced_motion(periodic::single_mass(), always(values), {}, options);
     REQUIRE(motion.failure.empty());
     const double error =
@@ -267,7 +267,7 @@ TEST_CASE("A mass that friction holds on a shaken support rides along through a 
   const double from = 0.5, alpha = 0.1, to = 2.5;
   const ForcedMotion motion =
       forced_motion(network, always(values), {{1.0}, {0.0}},
-                    {.from = from, .sweep = {to, alpha}, .duration = (to - from) / alpha, .samples = 201});
+                    {.from = from, .run_up = {to, alpha}, .duration = (to - from) / alpha, .samples = 201});
   REQUIRE(motion.failure.empty());
   double error = 0.0;
   for (std::size_t i = 0; i < 201; ++i) {
@@ -283,7 +283,7 @@ TEST_CASE("A mass that friction holds on a shaken support rides along through a 
 
 TEST_CASE("After a run-up the frequency is kept") {
   const mechanics::NetworkValues values = periodic::single_mass_values(1.0, 0.2, 0.0);
-  const ForcedOptions options{.from = 0.2, .sweep = {0.7, 0.05}, .duration = 210.0, .samples = 421};
+  const ForcedOptions options{.from = 0.2, .run_up = {0.7, 0.05}, .duration = 210.0, .samples = 421};
   const ForcedMotion motion = forced_motion(periodic::single_mass(), always(values), {}, options);
   REQUIRE(motion.failure.empty());
   const auto& x = motion.history.displacement[0];

@@ -9,7 +9,7 @@
 #include "tests/known_answers/random_network.hpp"
 #include "tests/known_answers/responses.hpp"
 
-// The responses of networks of monotone laws, drawn at random, beside what an independent integration comes
+// The responses of networks of monotone laws, drawn at random, next to what an independent integration comes
 // to from rest: it knows nothing of the response, not even a state of it. Their response is one, so that both
 // must agree.
 namespace frahm::periodic::from_rest_test {
@@ -76,7 +76,7 @@ int check_networks(unsigned first, unsigned count) {
     Responses responses(drawn.network);
     const ResponseSummary& summary = responses.solve(drawn.values);
     INFO("network " << trial << ", status " << responses["status"] << " " << summary.reason);
-    double largest = 1e-4;  // [m]: statically some 1 m
+    double largest = 1e-4;  // [m]: statically about 1 m
     for (const std::string& mass : drawn.network.masses)
       largest = std::max(largest, responses[mass + "_peak"]);
     for (Eigen::Index i = 0; i < reference.masses(); ++i) {

@@ -8,7 +8,7 @@
 #include "solvers/tuning/variance/variance.hpp"
 #include "tests/known_answers/responses.hpp"
 
-// A system whose second mass is counted behind a gear, q = ratio x the coordinate, in every solver: it moves
+// A system whose second mass is counted after a gear, q = ratio x the coordinate, in every solver: it moves
 // as it did, only counted otherwise.
 namespace frahm::periodic::geared_test {
 namespace {
@@ -112,7 +112,7 @@ TEST_CASE("under white noise of a force or of its support a geared mass moves as
       values.element.erase(values.element.begin() + 4);
       values.second.clear();
       const tuning::Noise noise{kind, 0, 0.7};
-      // By the inertance and by the second mass, which is ratio^2 times as large behind the gear.
+      // By the inertance and by the second mass, which is ratio^2 times as large after the gear.
       NetworkValues by_inertance = values, by_mass;
       for (double& value : by_inertance.mass) value = 0.0;
       for (double& value : by_inertance.element) value = 0.0;

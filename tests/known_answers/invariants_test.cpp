@@ -37,10 +37,10 @@ TEST_CASE("What leaves the motion of a random network as it is leaves its respon
 // support. 4929, 2001696: where a contact creeps to its limit for ever, the half-period map turned the state
 // over and over. 2006082: of contacts in a loop one that rests by the others was taken for one that slides.
 // 3510: one carries its limit at times while the others hold it, and another was let go. 2045923: held
-// contacts were told shares of a loop beyond their limits that others can carry. 2048026: Newton's method led
-// to where friction of 10^6 holds a mass far off, and the map brings it back by 2 a period. 2250325, 2285211:
-// a search that came from as far was left there, as a limit of 10^-5 was passed by the rounding of such
-// forces. 2285794: a mass slides by 10^-7 around a place that a static force moves it to, whose work is
+// contacts were reported shares of a loop beyond their limits that others can carry. 2048026: Newton's method
+// led to where friction of 10^6 holds a mass far off, and the map brings it back by 2 a period. 2250325,
+// 2285211: a search that came from as far was left there, as a limit of 10^-5 was passed by the rounding of
+// such forces. 2285794: a mass slides by 10^-7 around a place that a static force moves it to, whose work is
 // rounded.
 TEST_CASE("Networks that once broke an invariant keep them all") {
   for (const std::uint64_t seed : {3510,    4929,    503736,  504224,  603720,  605939,  623420,  626547,

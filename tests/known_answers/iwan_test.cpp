@@ -9,7 +9,7 @@
 #include "tests/known_answers/responses.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
 
-// Sliders side by side as one element beside a spring: x'' + 2 zeta x' + x + sum s_i = cos(r tau).
+// Sliders side by side as one element next to a spring: x'' + 2 zeta x' + x + sum s_i = cos(r tau).
 namespace frahm::periodic::iwan_test {
 namespace {
 
@@ -28,7 +28,7 @@ struct Slider {
 using Sliders = std::vector<Slider>;
 const Sliders kListed = {{0.8, 0.2}, {0.5, 0.45}, {0.3, 0.6}, {0.2, 2.0}};
 
-// together: one element; else each is one.
+// together: one element; otherwise each is one.
 Network jointed_mass(const Sliders& sliders, bool together) {
   Network network{.masses = {"x"},
                   .prescribed = {},
@@ -111,7 +111,7 @@ TEST_CASE("A joint's loop takes what its sliders' loops take, and carries what t
   }
 }
 
-// Of the density R phi^chi of stiffness over the slip displacement, R = K (chi+1)/phi_m^(chi+1) and phi_m =
+// For the density R phi^chi of stiffness over the slip displacement, R = K (chi+1)/phi_m^(chi+1) and phi_m =
 // F (chi+2)/(K (chi+1)), a loop of amplitude X <= phi_m takes the integral of 4 R phi^(chi+1) (X - phi),
 //   4 R X^(chi+3)/((chi+2)(chi+3)),   of an even spread K^2 X^3/(3 F),
 // as Masing's rule gives of the parabola K u - K^2 u^2/(4 F).

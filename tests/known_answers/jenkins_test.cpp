@@ -11,7 +11,7 @@
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
 
-// A spring and a slider in series (Jenkins) beside a spring: x'' + 2 zeta x' + x + s = cos(r tau).
+// A spring and a slider in series (Jenkins) next to a spring: x'' + 2 zeta x' + x + s = cos(r tau).
 namespace frahm::periodic::jenkins_test {
 namespace {
 

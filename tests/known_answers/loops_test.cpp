@@ -20,7 +20,7 @@ constexpr double kRounding = 1e-12;  // of forces of order 1
 constexpr Node kGround{NodeKind::ground, 0}, kDriven{NodeKind::mass, 0}, kBeside{NodeKind::mass, 1};
 constexpr double kLower = 2.0, kJoint = 0.3, kUpper = 0.4;
 
-// The driven mass is held to the ground by one contact, and by two in series through the mass beside it.
+// The driven mass is held to the ground by one contact, and by two in series through the mass next to it.
 Network clamp() {
   return {.masses = {"driven", "beside"},
           .prescribed = {},
@@ -41,7 +41,7 @@ NetworkValues values(double force, double phase) {
 }
 
 TEST_CASE("Contacts in a loop share a force by the least sum, and within their limits, at any phase origin") {
-  // Of a force N the two in series take the part that makes their sum and the other's least.
+  // For a force N the two in series take the part that makes their sum and the other's least.
   const double in_series = 1.0 / (1.0 / (kJoint * kJoint) + 1.0 / (kUpper * kUpper));
   const double part = in_series / (in_series + kLower * kLower);
   Responses responses(clamp());
@@ -99,7 +99,7 @@ TEST_CASE("Masses held in a loop under a constant load rest where the springs ar
                        .element = {k, link, lower, joint, upper},
                        .excitation = {{swing, phase}, {mean, 0.0}}});
       CHECK(responses["status"] == 2.0);
-      constexpr double kInside = 2e-10;  // a rest position at a limit is told inside it by 5e-10 of it
+      constexpr double kInside = 2e-10;  // a rest position at a limit is reported inside it by 5e-10 of it
       CHECK_THAT(responses["driven_mean"], WithinAbs((mean + swing - lower - joint) / (k + link), kInside));
       CHECK_THAT(responses["beside_mean"], WithinAbs(0.0, kInside));
       CHECK(responses["driven_amplitude"] == 0.0);
@@ -222,7 +222,7 @@ TEST_CASE("No place where contacts in loops hold three masses has less energy th
     ++held;
     constexpr double kInside = 1e-9;  // of forces of order 1
     constexpr double kFromLimits =
-        1e-8;  // places at a limit are told inside it by 5e-10 of it, limits of up to 6
+        1e-8;  // places at a limit are reported inside it by 5e-10 of it, limits of up to 6
     const Eigen::Vector3d highest((mean + swing) * Eigen::Vector3d::UnitX()),
         lowest((mean - swing) * Eigen::Vector3d::UnitX());
     CHECK(out_of_reach(W, highest - K * place, limit) < kInside);

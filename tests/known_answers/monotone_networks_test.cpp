@@ -59,7 +59,7 @@ Comparison compare(const RandomNetwork& drawn, Responses& responses) {
     if (type == mechanics::ElementType::maxwell || type == mechanics::ElementType::jenkins)
       s[internal++] = history.columns[static_cast<std::size_t>(2 * n) + e][0];
   }
-  const double size = std::max({largest, fastest / drawn.values.omega, 1e-4});  // [m]: statically some 1 m
+  const double size = std::max({largest, fastest / drawn.values.omega, 1e-4});  // [m]: statically about 1 m
   const double speed = std::max(fastest, drawn.values.omega * size);
   reference.start(q, v, s);
   reference.pass_period();

@@ -13,7 +13,7 @@
 #include "tests/known_answers/responses.hpp"
 
 // Chains of one to three masses on curves of friction that rise or fall, with and without dampers, at and
-// beside their resonances, against a march from rest by the classical method of Runge and Kutta. Its steps
+// next to their resonances, against a march from rest by the classical method of Runge and Kutta. Its steps
 // are the same in every period: steps chosen by an error estimate miss bends of a curve at times, and the
 // march never settles.
 namespace frahm::periodic::random_curves_test {

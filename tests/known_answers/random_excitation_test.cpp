@@ -123,7 +123,7 @@ TEST_CASE("White noise on a linear oscillator causes Lyapunov's variances, insid
 TEST_CASE("White noise on a mass with friction alone causes the variance of Fokker and Planck", "[long]") {
   constexpr double chance = 0.03;  // two standard errors of the mean of a thousand records
   Shaken shaken;
-  // So soft that its force, some 0.01 N, is lost beside the friction; a mass must be held.
+  // So soft that its force, about 0.01 N, is lost next to the friction; a mass must be held.
   shaken.add("spring", ElementType::spring, 1e-4);
   shaken.add("friction", ElementType::coulomb, 1.0);
   const Ensemble of{.intensity = 1.0 / pi, .duration = 170.0, .from = 20.0, .rate = 50.0};

@@ -133,7 +133,7 @@ TEST_CASE("Random networks in a run-up lose what they are given", "[long]") {
     };
     const ForcedMotion motion =
         forced_motion(drawn.network, values_at, start.state,
-                      {.from = 0.5, .sweep = {1.5, 0.1}, .duration = 12.0, .samples = 21});
+                      {.from = 0.5, .run_up = {1.5, 0.1}, .duration = 12.0, .samples = 21});
     INFO("trial " << trial);
     REQUIRE(motion.failure.empty());
     CHECK(motion.energy.balance < kBalance);

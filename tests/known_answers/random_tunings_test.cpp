@@ -27,7 +27,7 @@ class Searches {
         tuning_(task, task.limits, effort_, never_stop_),
         scan_(task, tuning_.space(), tuning_.curves(), effort_, never_stop_) {}
 
-  // Of searches that take more than so many responses together.
+  // For searches that take more than so many responses together.
   Score best(std::uint64_t responses) {
     std::vector<Trial> trials = map();
     const auto by_score = [](const Trial& a, const Trial& b) { return a.score < b.score; };
@@ -194,7 +194,7 @@ TEST_CASE("where no design meets the limits the answer is the one that breaks th
     task.start = start;
     const Optimum optimum = tune(task, 0, [] { return false; }).at(0);
     CHECK(optimum.outcome == Outcome::infeasible);
-    CHECK_THAT(optimum.reason, Catch::Contains("the least near it"));
+    CHECK_THAT(optimum.reason, Catch::Contains("the least in its neighbourhood"));
     CHECK(std::isnan(optimum.certificate_gap));
     if (start == Start::map) CHECK(optimum.violation == Approx(1.0).epsilon(1e-6));
   }

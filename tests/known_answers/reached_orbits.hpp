@@ -10,7 +10,7 @@
 #include "tests/known_answers/exponential_integrator.hpp"
 #include "tests/known_answers/random_network.hpp"
 
-// What the search for coexisting orbits finds, beside what motions from many random starts come to when the
+// What the search for coexisting orbits finds, next to what motions from many random starts come to when the
 // independent integration follows them.
 namespace frahm::periodic {
 
@@ -61,7 +61,7 @@ class OrbitComparison {
   double size() const { return size_; }
 
  private:
-  static constexpr int kMostMultiple = 8;    // that is told from a motion that is not periodic
+  static constexpr int kMostMultiple = 8;    // that is distinguished from a motion that is not periodic
   static constexpr int kPeriods = 400;       // that a motion is followed
   static constexpr double kThere = 1e-4;     // of the size: so near to an orbit that it goes on to it
   static constexpr double kSame = 1e-3;      // between orbits

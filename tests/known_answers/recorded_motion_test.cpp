@@ -124,7 +124,7 @@ TEST_CASE("A motion does not outlast a record that ends while its support moves"
     return motion_of(one_mass(ExcitationKind::recorded_motion), kUnit, {{0, &velocity}}, duration, 2);
   };
   CHECK(run(1.0).failure.empty());
-  CHECK_THROWS_WITH(run(1.01), Catch::Contains("record 'v'") && Catch::Contains("not known beyond"));
+  CHECK_THROWS_WITH(run(1.01), Catch::Contains("record 'v'") && Catch::Contains("motion is not known"));
 }
 
 TEST_CASE("Records that are none are refused by name") {
@@ -135,7 +135,7 @@ TEST_CASE("Records that are none are refused by name") {
   refused({.name = "short", .of = RecordOf::force, .time = {0.0}, .values = {0.0}}, "record 'short'");
   refused({.name = "back", .of = RecordOf::force, .time = {0.0, 0.0}, .values = {0, 0}}, "must ascend");
   refused({.name = "nan", .of = RecordOf::force, .time = {0.0, 1.0}, .values = {0, NAN}}, "finite");
-  refused({.name = "y", .of = RecordOf::velocity, .time = {0.0, 1.0}, .values = {0, 1}}, "one of a support");
+  refused({.name = "y", .of = RecordOf::velocity, .time = {0.0, 1.0}, .values = {0, 1}}, "a motion belongs to a support");
   CHECK_THROWS_WITH(motion_of(network, kUnit, {}, 1.0, 2), Catch::Contains("has no record"));
 }
 
@@ -267,7 +267,8 @@ TEST_CASE(
   Record record = pulled(Interpolation::linear);
   record.time.pop_back();
   record.values.pop_back();
-  CHECK_THROWS_WITH(motion_of(network, kUnit, {{0, &record}}, 2.0, 2), Catch::Contains("not known beyond"));
+  CHECK_THROWS_WITH(motion_of(network, kUnit, {{0, &record}}, 2.0, 2),
+                    Catch::Contains("motion is not known"));
   NetworkValues values = kUnit;
   values.element.push_back(1.0);
   network.elements.push_back({"b", ElementType::inerter, {NodeKind::prescribed, 0}, {NodeKind::mass, 0}});

@@ -120,7 +120,7 @@ TEST_CASE("in a run-up the motion relative to the base obeys its equation, the f
   };
   const ForcedMotion motion = forced_motion(
       on_base(), values_at, {},
-      {.from = from, .sweep = {.to = end, .rate = alpha}, .duration = (end - from) / alpha, .samples = 501});
+      {.from = from, .run_up = {.to = end, .rate = alpha}, .duration = (end - from) / alpha, .samples = 501});
   REQUIRE(motion.failure.empty());
   constexpr double kStairs = 2e-3;  // of the base's acceleration on stairs, of which alpha sin phi is 0.2
   for (std::size_t i = 0; i < 500; ++i) {

@@ -19,7 +19,7 @@ using tuning::Optimum;
 using tuning::Task;
 
 constexpr double kTuned = 1e-6;  // of f, zeta and the peak of the linear optimum, as promised
-// Of a worst peak by fixed steps, which pass over the places where the stops' force jumps: with 1024 steps a
+// For a worst peak by fixed steps, which pass over the places where the stops' force jumps: with 1024 steps a
 // period it is right to 2e-4, with 256 to 3e-3.
 constexpr double kFine = 1e-3, kCoarse = 5e-3;
 
@@ -29,7 +29,7 @@ struct Stops {
   double clearance = 10.0, stiffness = 0.03, damping = 0.03;
 };
 
-// Machine of mass 1 on a spring of 1 and a damper of c, under cos(r t); the absorber behind stops.
+// Machine of mass 1 on a spring of 1 and a damper of c, under cos(r t); the absorber after stops.
 struct Machine {
   double damping = 0.0;
   Stops stops;

@@ -162,7 +162,7 @@ TEST_CASE("both peaks hold the optimum, and their shares make up the whole") {
   }
 }
 
-// The absorber beside a pendulum of mass 1e-4 and damping ratio zeta_p on the main mass, tuned to 0.9 where
+// The absorber next to a pendulum of mass 1e-4 and damping ratio zeta_p on the main mass, tuned to 0.9 where
 // the absorber leaves a valley: a peak 2 zeta_p wide.
 Task with_pendulum(double zeta_p) {
   Task task = absorber(0.05, 0.0);

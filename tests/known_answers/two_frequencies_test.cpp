@@ -44,7 +44,7 @@ TEST_CASE("Two odd frequencies without stops move the mass as Cheng and Zu say")
             INFO("M " << M << " N " << N << " r1 " << r1 << " f " << f << " p2 " << p2 << " phase " << phase);
             CHECK_THAT(responses["x_amplitude"],
                        WithinAbs(exact.amplitude, kAgreement * std::max(1.0, exact.amplitude)));
-            // The minimum half a period later is as large; the earlier of the two is told.
+            // The minimum half a period later is as large; the earlier of the two is reported.
             const double peak =
                 std::remainder(responses["x_peak_phase"] - exact.peak_phase, std::numbers::pi);
             CHECK_THAT(peak, WithinAbs(0.0, kAgreement));

@@ -338,7 +338,7 @@ TEST_CASE("a chunk of a finished map that is not there is damage, of a part it i
   const MapReader reader(path);
   reader.check_data(Completeness::part);
   CHECK_THAT(refusal([&] { reader.check_data(Completeness::whole); }),
-             Contains("map.h5:/x: its chunk at [0] is not there"));
+             Contains("map.h5:/x: its chunk at [0] is missing"));
 }
 
 TEST_CASE("axes and coordinates are in chunks with a checksum, single numbers in a header with one") {

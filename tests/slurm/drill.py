@@ -64,11 +64,11 @@ def told(text):
 
 
 def at_work(drill, output):
-    """How many tasks of an array, or 1 for a run of the whole; 0 if none, or nothing is there yet."""
+    """How many tasks of an array, or 1 for one run of everything; 0 if none, or nothing is there yet."""
     found = subprocess.run(["frahm", "status", output], env=drill.cluster.environment, capture_output=True, text=True,
                            timeout=20).stdout
     several = re.search(r"at work +(\d+) of \d+ array tasks", found)
-    return int(several[1]) if several else int("a run of the whole" in found)
+    return int(several[1]) if several else int("one run of everything" in found)
 
 
 def check_array(drill):

@@ -10,7 +10,7 @@ function gapSentences({ kind, band, group, texts, converged }) {
   const gap = Math.abs(group.number("certificate_gap"));
   if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
   const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
-  const claim = texts?.not_proved ? "Of the responses found" : "Certificate";
+  const claim = texts?.not_proved ? "Among the responses found" : "Certificate";
   return converged
     ? [
         `${claim}: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
@@ -24,7 +24,7 @@ function conditionSentences({ group, converged }) {
   const text = `${numberText(residual, 2)} (relative)`;
   if (converged) return [`The conditions of a local optimum hold to ${text}.`];
   return residual <= group.number("tolerance")
-    ? [`The conditions of a local optimum hold to ${text} at the last step, which is no proof of one.`]
+    ? [`The conditions of a local optimum hold to ${text} at the last step, which does not prove an optimum.`]
     : [`The conditions of a local optimum do not hold: KKT residual ${text}.`];
 }
 
@@ -52,7 +52,7 @@ export function certificateSentences(tuning) {
     starts > 1
       ? [`${startsText(group)}.`]
       : converged
-        ? ["That no better design lies elsewhere within the bounds is not proved: one start was made."]
+        ? ["Only one start was made: it is not proved that no better design lies elsewhere within the bounds."]
         : [];
   return [...gapSentences(tuning), ...conditionSentences(tuning), ...elsewhere, ...searchSentences(tuning)];
 }
@@ -60,8 +60,8 @@ export function certificateSentences(tuning) {
 const outcomeWords = {
   not_converged: "This tuning did not converge. What follows is the best design found, not a proven optimum",
   infeasible: "No design was found that meets every limit. What follows breaks one",
-  unbounded: "The response has no bound somewhere in the band. What follows is as far as the tuning came",
-  failed: "This tuning failed. What follows is as far as it came",
+  unbounded: "The response has no bound somewhere in the band. What follows is the last design of the tuning",
+  failed: "This tuning failed. What follows is its last design",
   stopped: "This tuning was stopped before its end. What follows is the best design so far",
 };
 

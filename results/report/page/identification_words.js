@@ -61,7 +61,7 @@ function estimateSentences({ estimates }) {
   if (told.length === 0) return [];
   return [
     `${told.join("; ")}.`,
-    ...(estimates.length > mostNamed ? [`${estimates.length - mostNamed} more stand in the table.`] : []),
+    ...(estimates.length > mostNamed ? [`${estimates.length - mostNamed} more are in the table.`] : []),
   ];
 }
 
@@ -71,7 +71,7 @@ function qualitySentences(identification) {
   );
   if (known.length === 0) return [];
   const each = known.map(({ record, nrmse }) => `${numberText(nrmse, digits)} % of ${words(record)}`);
-  return [`The model reproduces ${each.join(", ")} (NRMSE fit; 100 % is without any residual).`];
+  return [`The model reproduces ${each.join(", ")} (NRMSE fit; 100 % means no residual).`];
 }
 
 function doubtSentences(identification) {
@@ -81,7 +81,7 @@ function doubtSentences(identification) {
     (estimate) => certainty(estimate) === "determined" && estimate.low < 0 && estimate.high > 0,
   );
   if (crossing.length)
-    sentences.push(`Not told from zero at 95 %: ${crossing.map(({ name }) => symbolText(name)).join(", ")}.`);
+    sentences.push(`Not distinguished from zero at 95 %: ${crossing.map(({ name }) => symbolText(name)).join(", ")}.`);
   const pairs = closePairs(identification, hardlyApart);
   if (pairs.length) {
     const told = pairs
@@ -89,8 +89,8 @@ function doubtSentences(identification) {
       .map(
         ({ a, b, value }) => `${symbolText(a)} and ${symbolText(b)} (correlation ${correlationText(value)})`,
       );
-    const more = pairs.length > mostPairs ? `; ${pairs.length - mostPairs} more pairs stand below` : "";
-    sentences.push(`The data hardly tell apart ${told.join(", ")}${more}.`);
+    const more = pairs.length > mostPairs ? `; ${pairs.length - mostPairs} more pairs are listed below` : "";
+    sentences.push(`The data hardly distinguish ${told.join(", ")}${more}.`);
   }
   return sentences;
 }
@@ -101,7 +101,7 @@ function rowSentences({ rows }) {
     const known = Array.from(values).filter(Number.isFinite);
     const { factor, text } = shownUnit(unit, known);
     const end = (value) => numberText(value * factor, digits);
-    if (known.length === 0) return `${symbolText(name)}: none of ${values.length} rows has a number.`;
+    if (known.length === 0) return `${symbolText(name)}: no row of ${values.length} has a value.`;
     return (
       `${symbolText(name)} lies between ${end(Math.min(...known))} and ` +
       `${end(Math.max(...known))}${text ? ` ${text}` : ""} in ${known.length} of ${values.length} rows.`
@@ -128,6 +128,6 @@ export function noteSentence(note) {
 export function outcomeWarning({ outcome }) {
   if (outcome === "converged") return "";
   return outcome === "not_converged"
-    ? "This identification did not converge: its estimates are where it stopped, and their intervals tell nothing."
+    ? "This identification did not converge: its estimates are the values at which it stopped, and their intervals mean nothing."
     : "It is not known how this identification ended.";
 }

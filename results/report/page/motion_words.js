@@ -21,7 +21,7 @@ function restSentence({ kind, stopTime, duration, masses, units }) {
   if (Number.isNaN(stopTime) && masses.some(({ rest }) => Number.isFinite(rest))) return [];
   return [
     Number.isFinite(stopTime)
-      ? `From ${quantityText(stopTime, units.time, digits)} on nothing moves.`
+      ? `Nothing moves after ${quantityText(stopTime, units.time, digits)}.`
       : `Within ${quantityText(duration, units.time, digits)} it does not come to rest.`,
   ];
 }
@@ -48,14 +48,14 @@ function decrementSentence(mass, motion) {
     count = decrements.length;
   if (count === 0 || !swingsAboutZero(mass, motion)) return [];
   if (decrements.every(isRounding))
-    return ["Its logarithmic decrement is 0 but for rounding: nothing damps it."];
+    return ["Its logarithmic decrement is 0 apart from rounding: nothing damps it."];
   const first = `${decrementText(decrements[0])} in the first cycle`;
   const ratio =
     isOneMode(motion) && !isRounding(decrements[0])
-      ? ` (as of ${shareText(dampingRatio(decrements[0]))} viscous damping)`
+      ? ` (as with ${shareText(dampingRatio(decrements[0]))} viscous damping)`
       : "";
   const which = decrementsEndEarly(mass)
-    ? `the last that is above rounding, that from turning point ${count} of ${mass.turningPoints.length}`
+    ? `the last one above rounding, from turning point ${count} of ${mass.turningPoints.length}`
     : "the last";
   const last = count > 1 ? ` and ${decrementText(decrements.at(-1))} in ${which}` : "";
   return [`Its logarithmic decrement is ${first}${ratio}${last}.`];
@@ -81,20 +81,20 @@ function restOfMass(mass, motion) {
     timeText = (time) => quantityText(time, motion.units.time, digits);
   switch (approachOf(mass, motion)) {
     case "rests":
-      return [`It comes to lie at ${at}.`];
+      return [`It comes to rest at ${at}.`];
     case "held":
-      return [`It reaches its rest, ${at}, at ${timeText(mass.turningTimes.at(-1))}.`];
+      return [`It reaches its rest position, ${at}, at ${timeText(mass.turningTimes.at(-1))}.`];
     case "tends":
       // Damped by less than critical, it is stopped in the end, nearer to its rest than rounding.
       return [motion.mayStop ? `It tends to ${at}.` : `It tends to ${at} without ever arriving.`];
     default:
-      return [`It does not reach its rest, ${at}, within ${timeText(motion.duration)}.`];
+      return [`It does not reach its rest position, ${at}, within ${timeText(motion.duration)}.`];
   }
 }
 
 function decayOf(mass, motion) {
   if (isStill(mass, motion))
-    return [`${mass.noun} ${words(mass.name)} does not move: it lies at ${restText(mass)}.`];
+    return [`${mass.noun} ${words(mass.name)} does not move: it rests at ${restText(mass)}.`];
   return [...turningSentence(mass, motion), ...decrementSentence(mass, motion), ...restOfMass(mass, motion)];
 }
 
@@ -129,7 +129,7 @@ function errorSentence({ discretisationError, frequency, masses }) {
       `${quantityText(values.at(-1), unit, digits)}.`,
     ...(Number.isFinite(discretisationError)
       ? [
-          `The stairs of frequency that this is computed with change no sample by more than about ` +
+          `Because the frequency is computed in steps, samples are off by at most about ` +
             `${quantityText(discretisationError, masses[0]?.unit ?? "m", 2)}.`,
         ]
       : []),
@@ -144,7 +144,7 @@ function energySentences({ energies, group, units }) {
     .map(({ name, share }) => `${shareText(share)} in ${words(name)}`);
   const balance = group.number("energy_balance");
   return [
-    `Of ${quantityText(total, units.energy, digits)} dissipated, ${shares.join(", ")}.`,
+    `Of the ${quantityText(total, units.energy, digits)} dissipated, ${shares.join(", ")}.`,
     ...(Number.isFinite(balance) ? [`The energy balance closes to ${numberText(balance, 2)}.`] : []),
   ];
 }
@@ -155,13 +155,13 @@ export function sparseText(motion) {
   if (!sparse) return "";
   const timeText = (time) => quantityText(time, motion.units.time, digits);
   const few = Number.isFinite(period)
-    ? `${numberText(perPeriod, 3)} to a period of ${timeText(period)}`
+    ? `${numberText(perPeriod, 3)} per period of ${timeText(period)}`
     : "and the largest displacement lies between them";
   const more = Number.isFinite(enough) ? `With samples = ${enough} or more` : "With more samples";
   return (
-    `The samples stand ${timeText(step)} apart, ${few}: lines that join them would show another ` +
+    `The samples are ${timeText(step)} apart, ${few}: lines that join them would show a different ` +
     `motion, so they are drawn as dots, without cycles and phase portraits. ${more} in [${motion.kind}] of the ` +
-    `study it would be seen.`
+    `study would show it.`
   );
 }
 

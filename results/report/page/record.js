@@ -141,7 +141,7 @@ async function unpackGroup({ texts, columns }) {
 // data: the page's JSON. The record: {file, title, source, history, map (or null), groups: Map, provenance}.
 export async function unpackRecord(data) {
   if (data.format !== 1)
-    throw new Error(`the page's data are of format ${data.format}, its script reads format 1`);
+    throw new Error(`the page's data have format ${data.format}, but its script reads format 1`);
   const groups = new Map();
   for (const [name, group] of Object.entries(data.groups)) groups.set(name, await unpackGroup(group));
   return {

@@ -232,7 +232,7 @@ function heldSentences(tuning) {
   const held = holders(tuning);
   return held.length
     ? [`The design is held by ${held.join("; ")}.`]
-    : ["Neither bound nor limit holds the design: it is free on all sides."];
+    : ["Neither a bound nor a limit holds the design: it is free on all sides."];
 }
 
 function knotSentences({ parameters }) {
@@ -260,8 +260,8 @@ function slopeSentences({ parameters, band }) {
     .map((parameter) => {
       const steep = steepestPieces(parameter),
         all = parameter.knots.length - 1;
-      const where = steep > 0 ? `at ${steep} of ${all} pieces, which holds it too` : "nowhere";
-      return `${symbolText(parameter.name)} changes as fast as it may (${slopeText(parameter, band)}) ${where}.`;
+      const where = steep > 0 ? `at ${steep} of ${all} pieces, which also holds the design` : "nowhere";
+      return `${symbolText(parameter.name)} changes as fast as allowed (${slopeText(parameter, band)}) ${where}.`;
     });
 }
 
@@ -270,9 +270,9 @@ const touching = 0.999; // share of the constant's response, from which the cons
 function dominateSentences(tuning) {
   const nearest = tuning.texts.dominate === "constant" ? nearestToConstant(tuning) : null;
   if (!nearest) return [];
-  const holds = tuning.converged && nearest.ratio > touching ? ", which holds it too" : "";
+  const holds = tuning.converged && nearest.ratio > touching ? ", which also holds the design" : "";
   return [
-    `The study asks that its response lie nowhere above that of the best constant design: it is at most ` +
+    `The study requires a response nowhere above that of the best constant design: it is at most ` +
       `${percentText(100 * nearest.ratio, 6)} of it, at ${placeText(tuning, nearest.at)}${holds}.`,
   ];
 }
@@ -297,9 +297,9 @@ function detuningSentences(tuning) {
   const worst = worstDetuning(tuning, 0.05);
   if (!worst) return [];
   const off = `${symbolText(worst.name)} 5 % ${worst.change < 0 ? "less" : "more"}`;
-  if (worst.growth <= 0) return ["No parameter off by 5 % makes it worse."];
+  if (worst.growth <= 0) return ["No parameter that is off by 5 % makes it worse."];
   return [
-    `One parameter off by 5 % makes the ` +
+    `One parameter that is off by 5 % makes the ` +
       `${tuning.kind === "minimax" ? "worst peak" : tuning.kind === "variance" ? "variance" : "mean square"} grow ` +
       `by at most ${percentText(100 * worst.growth)} (${off}).`,
   ];
@@ -314,7 +314,7 @@ function excitationSentences({ excitation, excitations }) {
     : `the excitations of its ${excitations.length} scenarios, which are listed below`;
   return [
     `The design holds for ${held}. Friction, stops and tables do not scale with the motion: under ` +
-      `another amplitude it is the best only where their forces and clearances are changed in the same proportion.`,
+      `another amplitude it is the best only if their forces and clearances are changed in the same proportion.`,
   ];
 }
 
@@ -343,7 +343,7 @@ function tradeOffSentences(tuning) {
   const count = told.length === values.length ? "all" : told.length === 0 ? "none" : told.length;
   return [
     `Trade-off over ${values.length} limits of ${words(limits.at(-1)?.name ?? "one quantity")}, ${count} converged${range}.`,
-    `What follows is the design for the last, ${quantityText(group.number("trade_off"), unit, digits)}.`,
+    `What follows is the design for the last limit, ${quantityText(group.number("trade_off"), unit, digits)}.`,
   ];
 }
 

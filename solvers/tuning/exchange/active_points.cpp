@@ -12,7 +12,7 @@ constexpr double kWithinPiece = 1.0 - 1e-6;       // of the way to a knot, on wh
 constexpr double kAcrossLeap = 1.5 * kLeapWidth;  // knots closer than this, relative, are sides of a leap
 constexpr double kIdle = 0.8;                     // of the bound
 
-// Both sides of a peak without symmetry; else the larger one, which stands for both.
+// Both sides of a peak without symmetry; otherwise the larger one, which stands for both.
 std::vector<std::size_t> sides_of(std::size_t sides) {
   if (sides == 2) return {0, 1};
   return {BandCurve::larger};

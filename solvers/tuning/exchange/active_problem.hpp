@@ -42,7 +42,7 @@ class ActiveProblem final : public Problem {
   double objective(std::span<const double> x, std::span<double> gradient) override;
   void constrain(std::span<const double> x, std::span<double> values, std::span<double> entries) override;
   bool stop_asked() override { return stop_asked_(); }
-  // Of a variance: why it had no value, the last time that it had none.
+  // For a variance: why it had no value, the last time that it had none.
   const std::string& why_undefined() const { return why_undefined_; }
 
  private:
@@ -78,7 +78,7 @@ class ActiveProblem final : public Problem {
   std::vector<CurveKind> node_curves_;
   std::vector<std::unique_ptr<BandCurve>> node_responses_;
   std::optional<Variance> variance_;
-  std::string why_undefined_ = "it is no finite number";
+  std::string why_undefined_ = "it is not a finite number";
   RowBlock response_rows_;
   std::vector<SlopeRows> slope_rows_;
 };

@@ -55,7 +55,7 @@ TunedResponse::State BandCurve::solve(std::span<const double> x, double band, De
   return state;
 }
 
-// Of an objective or a limit.
+// For an objective or a limit.
 void BandCurve::set_scale(double band) {
   factor_ = 1.0;
   offset_ = factor_slope_ = 0.0;

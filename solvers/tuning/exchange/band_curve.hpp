@@ -53,8 +53,8 @@ class BandCurve {
   double derivative(std::size_t side, std::size_t parameter) const;  // d value / d parameter, all else held
   double slope_left(std::size_t side) const;                         // d value / d band along the schedules
   double slope_right(std::size_t side) const;
-  // Sides that need a bound each: both of a peak without symmetry, else only the first. Of several orbits the
-  // worst has the larger side, which alone counts.
+  // Sides that need a bound each: both of a peak without symmetry, otherwise only the first. Of several
+  // orbits the worst has the larger side, which alone counts.
   std::size_t sides() const {
     return sides_ == 2 && !response_.is_symmetric() && !response_.may_jump() ? 2 : 1;
   }

@@ -11,7 +11,7 @@ struct CurvePoint {
   double at = 0.0;
   double value = 0.0;                          // NaN: no value there; infinite: without bound
   double slope_left = 0.0, slope_right = 0.0;  // exact; they differ at a kink known in advance
-  bool is_end = false;                         // a maximum beside which the curve jumps down
+  bool is_end = false;                         // a maximum next to which the curve jumps down
 };
 using CurveAt = std::function<CurvePoint(double at)>;
 

@@ -5,7 +5,7 @@
 namespace frahm::tuning {
 namespace {
 
-constexpr int kPanels = 40;  // of an even grid, beside those about the poles
+constexpr int kPanels = 40;  // of an even grid, next to those about the poles
 
 // Gauss-Legendre, four nodes on [0, 1] (Abramowitz and Stegun, table 25.4).
 constexpr double kNodeAt[] = {0.069431844202973714, 0.33000947820757187, 0.66999052179242813,

@@ -17,7 +17,7 @@ struct Scan {
     std::size_t curve = 0;
     double at = 0.0, value = 0.0;
     std::size_t sides = 1;
-    bool is_end = false;  // the curve jumps down beside it
+    bool is_end = false;  // the curve jumps down next to it
   };
   struct Extreme {
     double at = 0.0, value = -kInfinity;

@@ -143,7 +143,7 @@ Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
   return again;
 }
 
-// Of the designs that break the limits as little as `least` does, the best one.
+// For the designs that break the limits as little as `least` does, the best one.
 Exchange::Result Exchange::best_of_least(const Goal& goal, Result least) {
   constexpr double kSlack = 1e-7;  // so that such designs are not a single point
   std::vector<CurveKind> held = curves_;

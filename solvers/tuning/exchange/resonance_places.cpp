@@ -51,7 +51,7 @@ Held beyond(const mechanics::LinearSystem& system, double side) {
 }
 
 // Poles of z' = A z, z = (eta, eta', s), q = B eta: the motions that the held contacts leave free. A slider
-// behind a spring has s' = k u' while it sticks, and s' = 0 while it slides.
+// in series with a spring has s' = k u' while it sticks, and s' = 0 while it slides.
 void add_poles(const mechanics::LinearSystem& system, const Held& held_by,
                const std::vector<Eigen::Index>& stuck, std::vector<Pole>& poles) {
   const Eigen::Index m = system.internal_forces();

@@ -138,10 +138,10 @@ TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double b
 // Leaves the response at the worst of those found, by the larger side of a peak. Returns whether there is
 // one.
 bool TunedResponse::tell_worst(int responses) {
-  constexpr int kMotion = 64;  // periods that what is told of a motion takes
+  constexpr int kMotion = 64;  // periods that what is reported of a motion takes
   std::vector<double> values(value_.size());
   double worst = kNone;
-  int last = -1, told = -1;
+  int last = -1, reported = -1;
   const auto size_of = [&](int which) {
     response_.tell(last = which);
     response_.quantities(values);
@@ -155,11 +155,11 @@ bool TunedResponse::tell_worst(int responses) {
     const bool is_worse = worst_ == Worst::largest ? size > worst : size < worst;
     if (!std::isfinite(size) || !(std::isnan(worst) || is_worse)) continue;
     worst = size;
-    told = which;
+    reported = which;
     value_ = values;
   }
-  if (told >= 0 && told != last) size_of(told);
-  return told >= 0;
+  if (reported >= 0 && reported != last) size_of(reported);
+  return reported >= 0;
 }
 
 // Returns why there are none, as PeriodicResponse::gradient().

@@ -38,7 +38,7 @@ class TunedResponse {
 
   enum class State { solved, unbounded, failed };
   // Solves at the design x and a point of the band. If a derivative is needed and the orbit grazes, the orbit
-  // at a frequency one part in 1e9 beside it is found instead.
+  // at a frequency one part in 1e9 next to it is found instead.
   State solve(std::span<const double> x, double band, Derivatives derivatives);
   // All quantities at each of many places at once, faster than one by one; NaN where there is no response.
   // Not of a network that may have several.

@@ -114,7 +114,7 @@ class Program final : public Ipopt::TNLP {
                              Number optimality, Number, Number, Number, Number, Number, Index,
                              const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
     problem_.record().iterations = iteration;
-    if (mode == Ipopt::RegularMode) problem_.record_iteration(iteration, infeasibility, optimality, value);
+    if (mode == Ipopt::RegularMode) problem_.note_iteration(iteration, infeasibility, optimality, value);
     return !problem_.ends();
   }
 
@@ -154,7 +154,7 @@ End end_of(Ipopt::ApplicationReturnStatus status) {
     case Ipopt::Solve_Succeeded:
     case Ipopt::Solved_To_Acceptable_Level:
     case Ipopt::Feasible_Point_Found:
-      return {Ending::failed, "Ipopt is content with a point whose KKT residual is above the tolerance"};
+      return {Ending::failed, "Ipopt accepted a point whose KKT residual is above the tolerance"};
     case Ipopt::Infeasible_Problem_Detected:
       return {Ending::infeasible, "the constraints cannot be met near this point"};
     case Ipopt::Search_Direction_Becomes_Too_Small:
@@ -162,7 +162,7 @@ End end_of(Ipopt::ApplicationReturnStatus status) {
     case Ipopt::Diverging_Iterates:
       return {Ending::diverging, "the variables grow without limit"};
     case Ipopt::Maximum_Iterations_Exceeded:
-      return {Ending::iteration_limit, "the iterations allowed were used up"};
+      return {Ending::iteration_limit, "the allowed iterations were used up"};
     case Ipopt::Restoration_Failed:
       return {Ending::failed, "Ipopt found no way back to the constraints"};
     case Ipopt::Error_In_Step_Computation:
@@ -172,7 +172,7 @@ End end_of(Ipopt::ApplicationReturnStatus status) {
     case Ipopt::Invalid_Number_Detected:
       return {Ending::failed, "the problem is not defined where Ipopt had to go"};
     case Ipopt::Insufficient_Memory:
-      return {Ending::failed, "Ipopt has not enough memory"};
+      return {Ending::failed, "Ipopt does not have enough memory"};
     default:
       return {Ending::failed, "Ipopt failed"};
   }
@@ -190,7 +190,7 @@ Run run(ScaledProblem& problem, const SolverOptions& options) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   set_options(*application->Options(), options);
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {  // "": no file of options
-    return {{Ending::failed, "Ipopt does not take its options"}, {}};
+    return {{Ending::failed, "Ipopt does not accept its options"}, {}};
   }
   const Ipopt::SmartPtr<Ipopt::TNLP> program_of_ipopt = GetRawPtr(program);
   const End end = end_of(application->OptimizeTNLP(program_of_ipopt));

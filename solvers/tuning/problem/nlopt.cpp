@@ -96,7 +96,7 @@ class Program {
     if (problem_.improvements() == recorded) return;
     recorded = problem_.improvements();
     const double residual = problem_.best_residual();
-    problem_.record_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
+    problem_.note_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
     if (is_global_) return;
     if (residual <= tolerance_ && problem_.best_infeasibility() <= feasibility_) nlopt_force_stop(solver_);
   }
@@ -186,17 +186,17 @@ nlopt_result Program::run(std::vector<double>& x, int most_evaluations) {
 const char* reason_of(nlopt_result result) {
   switch (result) {
     case NLOPT_MAXEVAL_REACHED:
-      return "the evaluations allowed were used up";
+      return "the allowed evaluations were used up";
     case NLOPT_FTOL_REACHED:
     case NLOPT_XTOL_REACHED:
     case NLOPT_SUCCESS:
       return "the steps became too small";
     case NLOPT_ROUNDOFF_LIMITED:
-      return "rounding leaves no step that gains";
+      return "rounding leaves no step that improves the objective";
     case NLOPT_OUT_OF_MEMORY:
-      return "NLopt has not enough memory";
+      return "NLopt does not have enough memory";
     default:
-      return "NLopt finds no step";
+      return "NLopt found no step";
   }
 }
 

@@ -79,7 +79,7 @@ enum class Ending {
 inline constexpr double kAcceptable = 1e3;
 const char* name(Ending ending);
 
-struct IterationRecord {
+struct Iteration {
   int iteration = 0;
   double objective = 0.0;
   double infeasibility = 0.0;
@@ -93,7 +93,7 @@ struct IterationRecord {
 struct Solution {
   Ending ending = Ending::failed;
   std::string reason;          // a sentence: why the solve ended
-  std::vector<double> x;       // size of variables: the optimum, else the best feasible point met
+  std::vector<double> x;       // size of variables: the optimum, otherwise the best feasible point met
   double objective = 0.0;      // at x
   double kkt_residual = 0.0;   // of kkt.hpp, by the same computation for every solver; NaN: no gradient at x
   double infeasibility = 0.0;  // largest violation of a constraint, relative to its scale
@@ -101,7 +101,7 @@ struct Solution {
   std::vector<double> constraint_multipliers;                // of each constraint
   int iterations = 0;   // of NLopt's algorithms: improvements of the best point
   int evaluations = 0;  // points at which objective and constraints were evaluated
-  std::vector<IterationRecord> history;
+  std::vector<Iteration> history;
 };
 
 struct SolverOptions {

@@ -23,11 +23,11 @@ std::string reason_of(Ending ending, const std::string& library) {
     case Ending::converged:
       return "the KKT residual is within the tolerance";
     case Ending::acceptable:
-      return "the solver came no nearer (" + library + "), with a KKT residual that is small";
+      return "the solver made no further progress (" + library + "), with a KKT residual that is small";
     case Ending::diverging:
       return "the objective falls, or a variable grows, without limit";
     case Ending::stopped:
-      return "a stop was asked for";
+      return "a stop was requested";
     default:
       return library;
   }
@@ -183,8 +183,7 @@ void ScaledProblem::note_point() {
   }
 }
 
-void ScaledProblem::record_iteration(int iteration, double infeasibility, double optimality,
-                                     double objective) {
+void ScaledProblem::note_iteration(int iteration, double infeasibility, double optimality, double objective) {
   solution_.history.push_back({iteration, objective * problem_.objective_scale, infeasibility, optimality});
 }
 

@@ -51,7 +51,7 @@ class ScaledProblem {
   double best_residual() const { return best_ ? best_->residual : kInfinity; }
   std::vector<double> best() const;         // feasible, and of these least in the objective
   Solution& record() { return solution_; }  // where an adapter writes history, iterations, reason
-  void record_iteration(int iteration, double infeasibility, double optimality, double objective);
+  void note_iteration(int iteration, double infeasibility, double optimality, double objective);
 
   // The solution at the best point, with multipliers by least squares. `ending`: used if that point is not an
   // optimum. Rethrows what the problem's functions threw.
@@ -65,7 +65,7 @@ class ScaledProblem {
   struct Best {
     std::vector<double> x;  // in the problem's units, as the objective
     double objective = 0.0, infeasibility = 0.0;
-    // Of the KKT conditions; NaN where it was not looked at.
+    // For the KKT conditions; NaN where it was not looked at.
     double residual = kNone;
   };
   double residual() const;

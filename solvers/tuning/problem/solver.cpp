@@ -23,8 +23,8 @@ void check_fit(const Problem& problem, SolverKind kind) {
   for (const Constraint& c : problem.constraints) {
     const bool equality = c.lower == c.upper;
     if (equality ? able.equalities : able.inequalities) continue;
-    throw std::invalid_argument(solver + " takes no " + (equality ? "equality " : "") +
-                                "constraints, such as '" + c.name + "': those that do are " +
+    throw std::invalid_argument(solver + " does not accept " + (equality ? "equality " : "") +
+                                "constraints, such as '" + c.name + "'; solvers that do are " +
                                 names_of(equality ? &Abilities::equalities : &Abilities::inequalities));
   }
   if (!able.global) return;
@@ -63,7 +63,7 @@ SolverKind solver_named(const std::string& word) {
     if (word == name(kind)) return kind;
     known += (known.empty() ? "" : ", ") + std::string(name(kind));
   }
-  throw std::invalid_argument("solver '" + word + "' is none of " + known);
+  throw std::invalid_argument("solver '" + word + "' is not one of " + known);
 }
 
 Abilities abilities(SolverKind kind) {

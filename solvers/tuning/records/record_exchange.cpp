@@ -22,7 +22,7 @@ bool is_left_out(const std::vector<bool>& left_out, std::size_t scenario) {
   return !left_out.empty() && left_out[scenario];
 }
 
-// Of the motions whose scenarios are kept.
+// For the motions whose scenarios are kept.
 std::vector<double> largest_of(const DesignPeaks& peaks, const std::vector<bool>& left_out) {
   std::vector<double> largest;
   for (const auto& motion : peaks.motions) {

@@ -15,7 +15,7 @@ namespace frahm::tuning {
 //
 // With a share below 1 the objective Q is an order statistic of the scenarios' peaks, which has a kink where
 // two of them change places. So the scenarios above Q are left out, and the worst of the others is pressed
-// down; then those above are chosen anew:
+// down; then those above are chosen again:
 //   Q(x') <= worst of the kept at x' <= worst of the kept at x = Q(x),
 // so that Q never rises. Where the choice stays the same, each scenario that holds the design is left out in
 // turn in place of the lowest of those left out, as long as that lowers Q. What is reached is a local

@@ -37,7 +37,7 @@ std::vector<bool> above_share(const std::vector<double>& worst, double share) {
   return above;
 }
 
-// A motion of a scenario; one without a meaning is told with the name of its scenario, where there are
+// A motion of a scenario; one without a meaning is reported with the name of its scenario, where there are
 // several.
 transient::ForcedMotion motion_of(const RecordTask& task, std::size_t scenario, std::size_t record,
                                   const mechanics::NetworkValues& values, Weighed weighed) {

@@ -40,7 +40,7 @@ DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
 // The worst of the peaks, or their mean.
 double objective_of(RecordObjective objective, std::span<const double> peaks);
 
-// Of each scenario the largest peak of its records.
+// For each scenario the largest peak of its records.
 std::vector<double> worst_of_scenarios(const DesignPeaks& peaks, std::size_t scenarios);
 
 }  // namespace frahm::tuning

@@ -64,7 +64,7 @@ void RecordProblem::constrain(std::span<const double> x, std::span<double> value
   }
 }
 
-// Derivatives cost little beside the motion, and are nearly always asked for next.
+// Derivatives cost little compared with the motion, and are nearly always asked for next.
 void RecordProblem::go_to(std::span<const double> design) {
   if (std::ranges::equal(design, design_)) return;
   design_.assign(design.begin(), design.end());

@@ -40,7 +40,7 @@ void RecordExchange::judge() {
     end(Outcome::failed, "a motion could not be computed: " + failure_);
   } else if (best_.found.objective == 0.0) {
     optimum_.certificate_gap = optimum_.kkt_residual = 0.0;
-    end(Outcome::converged, "nothing moves, and nothing can be less");
+    end(Outcome::converged, "nothing moves, so nothing can be reduced");
   } else if (best_.solved.empty()) {
     end(Outcome::not_converged, "no round found a better design than the start");
   } else {

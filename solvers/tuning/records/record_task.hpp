@@ -27,7 +27,7 @@ struct RecordTask {
   double duration = 0.0;       // of each motion [s], > 0
   std::size_t coordinate = 0;  // the mass or signal (mechanics/coordinates.hpp)
   RecordObjective objective = RecordObjective::worst_peak;
-  // Of worst_peak: the share of the scenarios, each with the worst of its records, that counts; the others
+  // For worst_peak: the share of the scenarios, each with the worst of its records, that counts; the others
   // are those with the largest peaks. Below 1 the objective is a quantile of the scenarios' peaks: the least
   // number that as many of them as this share do not exceed (order statistic ceil(share n)).
   double share = 1.0;  // > 0

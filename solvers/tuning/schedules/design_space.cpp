@@ -22,7 +22,7 @@ void check(const DesignParameter& parameter) {
     if (!(schedule.knots[i] > schedule.knots[i - 1])) refuse("the knots must ascend");
   }
   if (!(schedule.max_slope > 0.0)) refuse("max_slope must be positive");
-  if (schedule.leap && *schedule.leap + 1 >= schedule.knots.size()) refuse("it leaps beyond its last knot");
+  if (schedule.leap && *schedule.leap + 1 >= schedule.knots.size()) refuse("it jumps beyond its last knot");
 }
 
 }  // namespace

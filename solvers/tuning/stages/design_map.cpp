@@ -55,7 +55,7 @@ std::vector<double> heights(const DesignMap& map) {
   return heights;
 }
 
-// Calls each(neighbour) for all cells of the map beside a cell.
+// Calls each(neighbour) for all cells of the map next to a cell.
 template <class Each>
 void for_neighbours(const DesignMap& map, std::size_t cell, const Each& each) {
   const auto& [dimensions, along] = std::pair(map.dimensions, map.along);

@@ -19,7 +19,7 @@ struct DesignMerit {
 };
 using MeritAt = std::function<DesignMerit(std::span<const double> value)>;
 
-// Of a search that was stopped: the first cells only.
+// For a search that was stopped: the first cells only.
 struct DesignMap {
   std::size_t dimensions = 0;  // the parameters whose bounds differ
   int along = 0;               // cells of each of them

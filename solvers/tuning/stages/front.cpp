@@ -25,7 +25,7 @@ Task without_trade_off(const Task& task) {
   return free;
 }
 
-// Of the quantity of the trade-off at a design, over the task's band.
+// For the quantity of the trade-off at a design, over the task's band.
 double largest_of(const Task& task, const Optimum& optimum) {
   Effort effort;
   const std::function<bool()> never = [] { return false; };

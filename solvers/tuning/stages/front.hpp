@@ -11,7 +11,7 @@ namespace frahm::tuning {
 // The ends of the front of a task with a trade-off, each a tuning of its own from that start.
 FrontEnds front_ends(const Task& task, std::size_t start, const std::function<bool()>& stop_asked);
 
-// Of a front: a problem whose optimum another, under no higher limit, undercuts, and that other; its design
+// For a front: a problem whose optimum another, under no higher limit, undercuts, and that other; its design
 // is a better start. Nothing where there is none.
 struct Undercut {
   std::size_t problem = 0, by = 0;

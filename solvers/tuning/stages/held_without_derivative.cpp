@@ -24,14 +24,13 @@ std::string held_without_derivative(const Scan& scan, const std::vector<CurveKin
     const Scan::Extreme& highest = scan.tightest[c];
     if (!highest.periodic && holds(c, highest.value))
       return "at " + number(highest.at) +
-             " of the band no stable periodic response was found, and the worst of the motion there, which "
-             "has "
-             "no derivative, holds the design";
+             " of the band no stable periodic response was found; the worst of the motion there holds the "
+             "design and has no derivative";
   }
   for (const Scan::Maximum& maximum : scan.maxima) {
     if (maximum.is_end && holds(maximum.curve, maximum.value))
       return "the stable branch that holds the design ends at " + number(maximum.at) +
-             " of the band, and the derivatives there do not say how its end moves";
+             " of the band, and the derivatives there do not give the motion of its end";
   }
   return "";
 }

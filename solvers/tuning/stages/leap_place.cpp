@@ -208,7 +208,7 @@ LeapDecided decide_leap(const Task& task, const std::vector<QuantityLimit>& limi
   const auto path = PathSearch(task, limits, effort.orbits, stop_asked).best(value);
   if (!path) return {with_leap_at(task, middle), {}};
   Task best = with_leap_at(task, path->leap.value_or(middle));
-  // The path's values at the knots, and at both sides of the leap those of the knots beside it.
+  // The path's values at the knots, and at both sides of the leap those of the knots next to it.
   std::vector<double> x = path->x;
   const std::size_t leap = *best.parameters[leaping_parameter(task)].schedule->leap;
   const auto at = x.begin() + static_cast<std::ptrdiff_t>(

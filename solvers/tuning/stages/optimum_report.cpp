@@ -34,7 +34,8 @@ std::string sentence(Outcome outcome, const Stages& stages) {
       return "the rounds of exchange no longer close the gap" + why_open(stages.best.step.solution);
     case Outcome::infeasible:
       return "no design was found that meets the limits: this one breaks them by " +
-             number(100.0 * scan.violation) + " %" + (stages.best.breaks_least ? ", the least near it" : "");
+             number(100.0 * scan.violation) + " %" +
+             (stages.best.breaks_least ? ", the least in its neighbourhood" : "");
     case Outcome::unbounded:
       return "the response has no bound at " + number(scan.at) + " of the band: " + scan.reason;
     case Outcome::failed:
@@ -87,7 +88,7 @@ class Report {
       if (optimum.outcome != Outcome::infeasible && scan_.worst > 0.0)
         optimum.certificate_gap = (scan_.worst - stages_.bound) / scan_.worst;
       judge_certificate(optimum);
-      optimum.certificate_gap = told(optimum.certificate_gap);
+      optimum.certificate_gap = clamped(optimum.certificate_gap);
     } else {
       optimum.objective = stages_.decisive.objective_again;
       if (optimum.outcome == Outcome::converged)  // there is no bound to compare it with
@@ -105,7 +106,7 @@ class Report {
 
   static void write_nothing_moves(Optimum& optimum) {
     optimum.objective = optimum.certificate_gap = optimum.kkt_residual = 0.0;
-    optimum.reason = "the quantity is zero over the whole band, and nothing can be less";
+    optimum.reason = "the quantity is zero over the whole band, so nothing can be reduced";
   }
 
   double constant_objective() const {
@@ -119,7 +120,7 @@ class Report {
     if (optimum.outcome != Outcome::infeasible || is_broken(optimum.violation)) return;
     optimum.outcome = Outcome::not_converged;
     optimum.reason =
-        "the limits are met, but the rounds of exchange do not tell how near the objective is to its least";
+        "the limits are met, but the rounds of exchange do not show how near the objective is to its least";
   }
 
   // The last scan includes low peaks and starts from other points: its result is the certificate.
@@ -132,20 +133,20 @@ class Report {
       optimum.reason = held;
     } else if (std::isnan(optimum.certificate_gap)) {
       optimum.outcome = Outcome::not_converged;
-      optimum.reason = "the quantity is zero over the whole band: there is nothing to press down";
+      optimum.reason = "the quantity is zero over the whole band: there is nothing to reduce";
     } else if (optimum.certificate_gap > task_.tolerance) {
       optimum.outcome = Outcome::not_converged;
-      optimum.reason = "a last look found a higher peak than the rounds of exchange did";
+      optimum.reason = "a last search found a higher peak than the rounds of exchange";
     } else if (optimum.certificate_gap < -kSlip) {
       optimum.outcome = Outcome::not_converged;
       optimum.reason =
-          "the last look missed a peak that the problem held: something changes over less of the "
-          "band than its poles are wide";
+          "the last search missed a peak that the problem held: something changes within a part of the band "
+          "narrower than its poles";
     }
   }
 
   // A bound above the worst peak by more than rounding is none.
-  static double told(double gap) { return gap < -kSlip ? kNone : gap < 0.0 ? 0.0 : gap; }
+  static double clamped(double gap) { return gap < -kSlip ? kNone : gap < 0.0 ? 0.0 : gap; }
 
   // A multiplier counts only above rounding: a peak's by its share; a bound's or limit's by the relative fall
   // of the objective when the bound moves by a hundredth of the range, the limit by its own size.

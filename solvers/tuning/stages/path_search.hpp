@@ -10,7 +10,7 @@
 
 namespace frahm::tuning {
 
-// A schedule found as a path, with the constants beside it.
+// A schedule found as a path, with the constants next to it.
 struct PathDesign {
   std::vector<double> x;       // of the task's design space
   double worst = 0.0;          // highest response on the grid

@@ -58,7 +58,7 @@ Variance::Variance(const mechanics::Network& network, const Noise& noise, const 
     : assembly_(network), noise_(noise), measure_(measure) {
   if (const Element* unfit = mechanics::element_unfit_for_noise(network)) {
     throw MechanicsError("element '" + unfit->name + "' is " + mechanics::kind_of(*unfit).name +
-                         ": the variance under white noise is that of linear elements with constant values");
+                         ": the variance under white noise needs linear elements with constant values");
   }
   find_drifting_motion();
   check_drift();

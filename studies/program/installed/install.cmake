@@ -10,7 +10,7 @@ set(made ${CMAKE_BINARY_DIR}/installed)
 install(TARGETS frahm RUNTIME COMPONENT program)
 install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/frahm/studies COMPONENT program
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.mtx" PATTERN "README.md" PATTERN "*.txt" EXCLUDE
-  PATTERN program EXCLUDE PATTERN reading EXCLUDE PATTERN record EXCLUDE PATTERN map EXCLUDE PATTERN motion EXCLUDE)
+  PATTERN program EXCLUDE PATTERN reading EXCLUDE PATTERN provenance EXCLUDE PATTERN map EXCLUDE PATTERN motion EXCLUDE)
 # The documents, in their folders, so that their links hold.
 file(GLOB_RECURSE documents RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS
   engine/*.md results/*.md solvers/*.md studies/*.md tests/README.md results/report/*.png)

@@ -13,7 +13,12 @@ Numbers are in the unit that the study uses for the parameter; a text may have o
 The interpreter is free while frahm computes.
 """
 
-from ._frahm import ResumeRefused, StudyError
+try:
+    from ._frahm import ResumeRefused, StudyError
+except ModuleNotFoundError as error:
+    from .built_for import explained
+
+    raise explained(error) from None
 from .dataset import names, open
 from .estimate import Estimate
 from .identification import Identification

@@ -23,7 +23,7 @@ def is_axis(value: Any) -> bool:
 
 
 def values_of_axis(name: str, given: Any, number: Callable[[str, str], float]) -> np.ndarray:
-    """The values of a parameter along an axis, a single one too.
+    """The values of a parameter along an axis; also a single one.
 
     number: what a text with a unit is in the parameter's usual unit, of a name and the text.
     """
@@ -35,13 +35,15 @@ def values_of_axis(name: str, given: Any, number: Callable[[str, str], float]) -
         listed = [number(name, _text(name, each)) if isinstance(each, (str, Estimate)) else each for each in listed]
     try:
         objects = np.asarray(listed)
-        if objects.dtype == object and any(each is None for each in objects.flat):  # NumPy would make it NaN
+        each_of = listed if isinstance(listed, list) else objects.flat if objects.dtype == object else []
+        # NumPy would make them numbers.
+        if objects.dtype.kind in "bS" or any(isinstance(each, (type(None), bool, bytes)) for each in each_of):
             raise TypeError
         array = np.atleast_1d(np.asarray(listed, dtype=float))
     except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name}={short(given)}: must be a number or a list of numbers, or texts with a unit") from None
     if array.ndim != 1:
-        raise ValueError(f"{name}: a list of values, not an array of {array.ndim} dimensions")
+        raise ValueError(f"{name}: must be a list of values, not an array of {array.ndim} dimensions")
     return array
 
 
@@ -83,7 +85,7 @@ def short(value: Any) -> str:
 def _name(name: Any) -> str:
     plain(name, "a parameter's name")
     if "=" in name or "," in name:
-        raise ValueError(f"{short(name)}: no parameter is called so; give one name and its value")
+        raise ValueError(f"{short(name)}: no parameter has this name; give one name and its value")
     return name
 
 
@@ -100,4 +102,4 @@ def _text(name: str, value: Any) -> str:
             return repr(float(single))
         except OverflowError:
             raise ValueError(f"{name}={short(value)}: must be a finite number") from None
-    raise TypeError(f"{name}: a number or a text with a unit, not {type(value).__name__}")
+    raise TypeError(f"{name}: must be a number or a text with a unit, not {type(value).__name__}")

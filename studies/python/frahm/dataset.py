@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 def open(path: Union[str, os.PathLike], group: Optional[str] = None) -> "xarray.Dataset":
     """Opens a result as an xarray dataset: its map, or one of its groups.
 
-    A map is opened without a group; beside it may be "orbits", "resonance", "modes", "statistics" ... What has no
-    map is in a group: "optimum" of a tuning, of a trade-off with "optimum/front"; "identification"; "decay" or
-    "transient" of one motion. Every result has "provenance". ValueError tells the groups of a file without the one asked for,
-    OSError (FileNotFoundError, IsADirectoryError) what is no result or damaged.
+    A map is opened without a group; next to it there may be "orbits", "resonance", "modes", "statistics" ... A result without
+    a map is in a group: "optimum" of a tuning, for a trade-off with "optimum/front"; "identification"; "decay" or
+    "transient" of one motion. Every result has "provenance". ValueError lists the groups of a file without the one requested,
+    OSError (FileNotFoundError, IsADirectoryError) a file that is damaged or not a result.
 
     Data are read when they are used; `.load()` reads all, `.close()` closes the file.
     """
@@ -42,7 +42,7 @@ def open(path: Union[str, os.PathLike], group: Optional[str] = None) -> "xarray.
 
 
 def _require_result(name: str) -> None:
-    """Refuses what is no result, and a damaged one, of which HDF5 might end the interpreter."""
+    """Refuses a file that is not a result, and a damaged one, with which HDF5 might end the interpreter."""
     if os.path.isdir(name):
         raise IsADirectoryError(f"{name}: is a folder; name a result in it")
     try:
@@ -55,7 +55,7 @@ def _require_result(name: str) -> None:
 
 @contextmanager
 def _told_as_damage(name: str) -> Iterator[None]:
-    """What libraries raise over a result whose names and references do not fit together is of any kind."""
+    """Libraries may raise any error for a result whose names and references do not fit together."""
     try:
         yield
     except (ImportError, MemoryError):
@@ -79,7 +79,7 @@ def names(flags: "xarray.DataArray") -> "xarray.DataArray":
     if not hasattr(flags, "attrs"):
         raise TypeError(f"names: takes a variable of a dataset, such as ds.status, not {type(flags).__name__}")
     if "flag_meanings" not in flags.attrs:
-        raise ValueError(f"{flags.name}: is no flag")
+        raise ValueError(f"{flags.name}: is not a flag")
     meanings = flags.attrs["flag_meanings"].split()
     numbers = np.atleast_1d(flags.attrs["flag_values"])
     words = np.full(int(max(numbers)) + 1, "", dtype=f"<U{max(map(len, meanings))}")

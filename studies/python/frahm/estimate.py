@@ -22,7 +22,7 @@ class Estimate:
         return self.value
 
     def setting(self, name: str) -> str:
-        """What a parameter is set to by it, with the unit.  name: of the parameter, for messages."""
+        """The value that a parameter is set to, with its unit.  name: of the parameter, for messages."""
         if not math.isfinite(self.value):
             raise ValueError(f"{name}: the data do not determine this estimate")
         return f"{self.value!r} {self.unit}".rstrip()

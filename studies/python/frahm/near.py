@@ -1,4 +1,4 @@
-"""Names that there are not, and the nearest of those that there are."""
+"""Unknown names, and the nearest known ones."""
 
 from difflib import get_close_matches
 from typing import Iterable, TypeVar
@@ -7,7 +7,7 @@ Value = TypeVar("Value")
 
 
 def nearest(word: object, words: Iterable[str]) -> str:
-    """What is added to the message about a word that there is not; empty where none is near."""
+    """The hint added to the message about an unknown word; empty if no known word is near."""
     found = get_close_matches(word, list(words), n=1) if isinstance(word, str) else []
     return f"; did you mean {found[0]!r}?" if found else ""
 
@@ -17,7 +17,7 @@ def no_such(what: str, word: object, words: Iterable[str]) -> KeyError:
 
 
 class Named(dict[str, Value]):
-    """A dictionary that tells the nearest name for one that it has not."""
+    """A dictionary whose error for an unknown name gives the nearest known one."""
 
     what = "name"
 

@@ -1,4 +1,4 @@
-"""The progress of a run: on a terminal, in a notebook, or for a function of one's own."""
+"""The progress of a run: on a terminal, in a notebook, or for a function of your own."""
 
 import json
 import sys
@@ -8,7 +8,7 @@ from typing import Any, Callable, Optional, TextIO, Union
 from .words import of_python
 
 Progress = Union[str, Callable[[dict[str, Any]], None]]
-""""auto", "none", or a function that gets each report: points, done, failed, percent, seconds_left ...; of a tuning evaluations"""
+""""auto", "none", or a function that gets each report: points, done, failed, percent, seconds_left ...; for a tuning evaluations"""
 
 SECONDS_BETWEEN_LINES = 30  # where a line cannot be written over, as the program does
 

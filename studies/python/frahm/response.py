@@ -36,7 +36,7 @@ class Response(Mapping[str, np.ndarray]):
         return len(self.arrays)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """The same as a labelled dataset."""
+        """The response as a labelled dataset."""
         import xarray
 
         def attributes(name: str) -> dict[str, str]:

@@ -78,7 +78,7 @@ def _budget(seconds: Any) -> Optional[float]:
 
 
 def _pass_on(messages: list[str]) -> None:
-    """The signal that stopped the run takes its course: Ctrl-C as KeyboardInterrupt, another as if there had been
+    """The signal that stopped the run takes effect: Ctrl-C as KeyboardInterrupt, another as if there had been
     no run."""
     stopped = [match for line in messages if (match := re.match(r"stopped by (SIG\w+)", line))]
     if not stopped:
@@ -89,6 +89,6 @@ def _pass_on(messages: list[str]) -> None:
 
 
 def _command(study: _frahm.Study, output: str) -> str:
-    """What the provenance of the result tells."""
+    """The command given in the provenance of the result."""
     changes = "".join(f" --set {each}" for each in study.set)
     return f"python: frahm run {study.name}{changes} -o {output}"

@@ -1,4 +1,4 @@
-"""A study: what is asked of a system."""
+"""A study: a system and what is to be computed for it."""
 
 import difflib
 import inspect
@@ -35,7 +35,7 @@ class Study:
 
     @classmethod
     def load(cls, path: Path, **parameters: Value) -> "Study":
-        """Reads a study file. parameters: values in the place of those in the file.
+        """Reads a study file. parameters: values that replace those in the file.
 
         Raises StudyError for anything wrong in it, with the line, the rule and the nearest word.
         """
@@ -43,12 +43,12 @@ class Study:
 
     @classmethod
     def from_text(cls, text: str, name: Path = "study.toml", **parameters: Value) -> "Study":
-        """The same of a text. name: its file, for messages; tables are searched beside it."""
+        """Reads a study from a text. name: its file, for messages; tables are searched for next to it."""
         return cls(_frahm.Study.parse(plain(text, "a study"), file_name(name), assignments(parameters)))
 
     @classmethod
     def from_dict(cls, study: Mapping[str, Any], name: Path = "study.toml", **parameters: Value) -> "Study":
-        """The same of a dictionary with the sections of a study file; [[mass]] is a list of dictionaries.
+        """Makes a study from a dictionary with the sections of a study file; [[mass]] is a list of dictionaries.
 
         `text` is the file it stands for, to which the lines of messages belong.
         """
@@ -66,7 +66,7 @@ class Study:
         return self
 
     def with_parameters(self, /, **parameters: Value) -> "Study":
-        """The study with other values of parameters; those set before stay unless set anew."""
+        """The study with other values of parameters; those set before are kept unless set again."""
         kept = [each for each in self._study.set if each.split("=")[0] not in parameters]
         return Study(_frahm.Study.parse(self.text, self.name, kept + assignments(parameters)))
 
@@ -139,7 +139,7 @@ class Study:
         plain(row, "a parameter's name")
         others = {**self._dictionary(Study.response, at), **parameters}
         if row in others:
-            raise ValueError(f"{row}: runs along the row, and has no other values beside it")
+            raise ValueError(f"{row}: runs along the row, so it cannot have another value")
         axes = {name: given for name, given in others.items() if is_axis(given)}
         fixed = {name: given for name, given in others.items() if name not in axes}
         axes[row] = self._values_of_axis(row) if values is None else values
@@ -179,7 +179,7 @@ class Study:
         unknown = [name for name in options if name not in of_run]
         if unknown:
             raise TypeError(f"{kind}() has no option {unknown[0]!r}, only output, {', '.join(of_run)}; "
-                            f"how it is done stands in the study, in [{kind}]")
+                            f"the study says how, in [{kind}]")
         if output is not None:
             return read(_finished(self.run(output, **options)), True)
         with tempfile.TemporaryDirectory(prefix="frahm-") as folder:
@@ -190,7 +190,7 @@ class Study:
                 if folder not in kept:
                     raise
                 raise type(stopped)(f"{reason}: nothing is kept without a file; {kind}(output) keeps what is computed, "
-                                    "and the same call goes on from there") from None
+                                    "and the same call resumes from there") from None
             told = [line for line in result.table.splitlines() if folder not in line]  # that file goes
             return read(replace(result, table="\n".join(told) + "\n"), False)
 
@@ -202,22 +202,22 @@ class Study:
         if isinstance(given, Mapping):
             return given
         raise TypeError(f"{method.__name__}({short(given)}): a value needs the name of its parameter, such as "
-                        f"{self._example()}={short(given)}; without one there is only a dictionary of them")
+                        f"{self._example()}={short(given)}; without a name only a dictionary is possible")
 
     def _refuse_misspelt(self, method: Callable[..., Any], given: Mapping[str, Any]) -> None:
-        """What is meant as an option of a method and taken as a parameter."""
+        """Refuses what was meant as an option of a method but would be taken as a parameter."""
         for name in given:
             meant = difflib.get_close_matches(name, _options(method), 1)
             if name not in self.parameters and meant:
-                raise TypeError(f"{method.__name__}() has no option {name!r}, and the study no such parameter; "
+                raise TypeError(f"{method.__name__}() has no option {name!r}, and the study has no such parameter; "
                                 f"did you mean {meant[0]!r}?")
 
     def _values_of_axis(self, row: str) -> np.ndarray:
         axes = self.axes
         if row not in axes:
             if row not in self.parameters:
-                raise _refused("unknown_name", f"{row}: no number of the study is called so; they are {', '.join(self.parameters)}")
-            raise _refused("missing_key", f"{row}: no axis of the study runs along it; give its values")
+                raise _refused("unknown_name", f"{row}: the study has no number of this name; it has {', '.join(self.parameters)}")
+            raise _refused("missing_key", f"{row}: the study has no axis along it; give its values")
         return axes[row]
 
     def __repr__(self) -> str:

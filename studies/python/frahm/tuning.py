@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Tuning:
-    """A tuned design, with what proves it."""
+    """A tuned design, with its proof."""
 
     outcome: str  #: "converged", "not_converged", "infeasible", "unbounded", "failed" or "stopped"
     reason: str  #: why the work ended

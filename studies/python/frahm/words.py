@@ -11,6 +11,7 @@ _WORDS = [(re.compile(pattern), words) for pattern, words in (
     (r'--set "([^"]*)":', r"\1:"),
     (r"--set\b", "with_parameters()"),
     (r"frahm run (?=completes|computes)", "run() "),
+    (r"use frahm run$", "use run()"),
     (r"the same command\b", "the same call"),
     (r"name its result, such as (.*), which frahm run .* makes", r"frahm.Study.load reads it, and its run() makes a result, such as \1"),
     (r"\(frahm status, report and export take results\)", "(frahm.open opens results)"),
@@ -20,7 +21,7 @@ _POINT = re.compile(r'( *)frahm point .* --at "([^"]*)".*')
 
 
 def of_python(message: str) -> str:
-    """A message of the program as Python tells it."""
+    """A message of the program in the words of Python."""
     for pattern, words in _WORDS:
         message = pattern.sub(words, message)
     return _POINT.sub(lambda found: f"{found[1]}study.point({_keywords(found[2])})", message)

@@ -123,7 +123,7 @@ def try_package(folder):
         run("dpkg-deb", "--extract", package, root)
     assert run(root / "usr/bin/frahm", "--version").strip() == f"frahm {version}"
     assert (root / "usr/lib/cmake/frahm/frahm-config.cmake").exists()
-    assert (root / "usr/include/frahm/studies/reading/study.hpp").exists()
+    assert (root / "usr/include/frahm/studies/reading/study/study.hpp").exists()
     if with_python:
         fields = run("dpkg-deb", "--field", packages["python3-frahm"])
         assert "python3-numpy" in fields and "libhdf5-103" in fields, fields

@@ -125,6 +125,9 @@ class Rows(unittest.TestCase):
         for missing in ([600, None], np.array([600, None], dtype=object)):
             with self.assertRaisesRegex(TypeError, "speed=.*None.*must be a number or a list of numbers"):
                 study.response("speed", missing)
+        for no_number in ([True], [600, False], [b"1"], np.array([True])):
+            with self.assertRaisesRegex(TypeError, "speed=.*must be a number or a list of numbers"):
+                study.response("speed", no_number)
         with self.assertRaisesRegex(TypeError, "F=.*None.*must be a number or a list of numbers"):
             study.response("speed", [600], F=[0, None])
         with self.assertRaisesRegex(ValueError, "speed: runs along the row"):

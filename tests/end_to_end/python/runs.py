@@ -44,7 +44,7 @@ class Runs(unittest.TestCase):
         with result.open() as ds:
             self.assertIn("python: frahm run study.toml --set k=300.0", ds.attrs["history"])
         again = frahm.Study.from_dict(MACHINE, k=300).run(self.file, progress="none")
-        self.assertIn("everything is computed already; fresh=True computes it anew", str(again))
+        self.assertIn("everything is computed already; fresh=True computes it again", str(again))
 
     def test_progress_is_a_line_that_is_written_over_where_that_can_be(self):
         class Terminal(io.StringIO):
@@ -178,7 +178,7 @@ class Runs(unittest.TestCase):
                 kept.append(report["done"])
                 os.kill(os.getpid(), signal.SIGINT)
 
-        with self.assertRaisesRegex(KeyboardInterrupt, "stopped by SIGINT.* kept beside"):
+        with self.assertRaisesRegex(KeyboardInterrupt, "stopped by SIGINT.* kept next to"):
             study.run(self.file, threads=1, progress=interrupt)
         self.assertIs(signal.getsignal(signal.SIGINT), before)
         self.assertFalse(self.file.exists())
@@ -242,7 +242,7 @@ class Runs(unittest.TestCase):
         with frahm.Study.from_dict(MACHINE).run(self.file, progress="none").open() as ds:
             self.assertTrue((frahm.names(ds.status) == "ok").all())
             self.assertEqual(frahm.names(ds.guide_regime).dims, ("F", "speed"))
-            with self.assertRaisesRegex(ValueError, "is no flag"):
+            with self.assertRaisesRegex(ValueError, "is not a flag"):
                 frahm.names(ds.machine_peak)
         with self.assertRaisesRegex(TypeError, "names: .*not int"):
             frahm.names(3)
@@ -278,14 +278,14 @@ class Runs(unittest.TestCase):
         study.run(self.file, progress="none")
         other = study.with_parameters(k=300)
         for error, words, wrong in (
-            (frahm.StudyError, r"no periodic response to tell; run\(\) computes", decay.point),
-            (frahm.StudyError, "no points to take over .*from_result is for maps",
+            (frahm.StudyError, r"has no periodic response; use run\(\)$", decay.point),
+            (frahm.StudyError, "no points to reuse .*from_result is for maps",
              lambda: decay.run(self.file.with_name("x.h5"), from_result=self.file, progress="none")),
             (frahm.StudyError, r"is a result; name the study it was made from \(frahm.open opens results\)",
              lambda: frahm.Study.load(self.file)),
-            (OSError, "is not a result of frahm; give another output, or remove it",
+            (OSError, "is not a result of frahm; name another output, or remove it",
              lambda: study.run(__file__, progress="none")),
-            (frahm.ResumeRefused, "leave from_result out",
+            (frahm.ResumeRefused, "leave out from_result",
              lambda: other.run(self.file.with_name("x.h5"), from_result=self.file, progress="none")),
         ):
             with self.assertRaisesRegex(error, words) as told:

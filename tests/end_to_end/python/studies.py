@@ -3,6 +3,7 @@
 import copy
 import pickle
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -105,6 +106,24 @@ class Studies(unittest.TestCase):
                       lambda: frahm.Study.from_dict(MACHINE, sped=3)):
             with self.assertRaisesRegex(frahm.StudyError, 'did you mean "speed"'):
                 wrong()
+
+
+class AnotherPython(unittest.TestCase):
+    def test_a_package_that_is_built_for_another_python_says_which_one(self):
+        package = Path(frahm.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            copy_of = Path(folder) / "frahm"
+            copy_of.mkdir()
+            for file in package.glob("*.py"):
+                (copy_of / file.name).write_bytes(file.read_bytes())
+            (copy_of / "_frahm.cpython-27-x86_64-linux-gnu.so").touch()
+            ended = subprocess.run([sys.executable, "-c", "import frahm"], cwd=folder, env={"PYTHONPATH": folder},
+                                   capture_output=True, text=True)
+        self.assertNotEqual(ended.returncode, 0)
+        last = ended.stderr.strip().splitlines()[-1]
+        self.assertIn("frahm is built for Python 2.7", last)
+        self.assertIn(f"this is Python {sys.version_info.major}.{sys.version_info.minor} ({sys.executable})", last)
+        self.assertIn("-DPython_EXECUTABLE=", last)
 
 
 if __name__ == "__main__":

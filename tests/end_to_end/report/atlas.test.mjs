@@ -141,7 +141,7 @@ test("the page of the full rig atlas", async (t) => {
         .selectOption("tmd_friction_stops");
       await page.locator("label", { hasText: "colours" }).locator("select").selectOption("log");
       await page.waitForFunction(() =>
-        document.querySelector("[data-figure^=map_] h3").textContent.startsWith("Stops of"),
+        document.querySelector("[data-figure^=map_] h3").textContent.startsWith("Number of stops of"),
       );
       const figure = page.locator("[data-figure^=map_]");
       assert.match(await figure.locator("[data-mark='colour scale']").textContent(), /^0/);

@@ -92,10 +92,10 @@ test("figures replace figures that nobody has changed, and nothing else", (t) =>
     assert.deepEqual(all(), before);
     writeFileSync(path, kept);
   };
-  isRefused("svg", "<svg>mine</svg>", /curves_main_amplitude\.svg: is there already and is no figure/);
+  isRefused("svg", "<svg>mine</svg>", /curves_main_amplitude\.svg: exists already and is not a figure/);
   isRefused("svg", readFileSync(place("svg"), "utf8").replace("</title>", " of mine</title>"), /changed since/);
-  isRefused("pdf", "%PDF-1.4 mine", /curves_main_amplitude\.pdf: is there already/);
-  isRefused("csv", readFileSync(file), /curves_main_amplitude\.csv: is there already/);
+  isRefused("pdf", "%PDF-1.4 mine", /curves_main_amplitude\.pdf: exists already/);
+  isRefused("csv", readFileSync(file), /curves_main_amplitude\.csv: exists already/);
   rmSync(place("svg"));
   writeFileSync(join(folder, "mine.svg"), "mine");
   symlinkSync(join(folder, "mine.svg"), place("svg"));
@@ -118,7 +118,7 @@ test("what cannot be done is said, with its exit code", (t) => {
     /absent\.h5: there is no such file/,
   );
   assert.match(frahm(["report", study("hundal")], { code: 2 }), /hundal\.toml/);
-  assert.match(frahm(["report", file, "-o", file], { code: 6 }), /is the file that is read/);
+  assert.match(frahm(["report", file, "-o", file], { code: 6 }), /is the input file/);
   writeFileSync(join(folder, "taken"), "");
   assert.match(frahm(["report", file, "--figures", join(folder, "taken")], { code: 6 }), /taken/);
   mkdirSync(join(folder, "page.html"));

@@ -141,7 +141,7 @@ quantities = ["${quantity}"]
   const free = await notes("free", 'type = "jenkins"\nstiffness = 1\nforce = 10', "0.5, 3", "x_rms");
   assert.match(free, /2 of 2 points show one of a continuum of responses/);
   const fast = await notes("fast", 'type = "gap"\nclearance = [inf, 0]\nstiffness = 100', "2, 6", "x_peak");
-  assert.match(fast, /At 1 of 2 points some starts of the search came to no stable response/);
+  assert.match(fast, /At 1 of 2 points some starts of the search reached no stable response/);
   assert.doesNotMatch(fast, /continuum/);
 });
 

@@ -166,7 +166,7 @@ test("a mass that friction holds has reached its rest while another swings on", 
   });
   const { page } = await open(t, join(folder, "own.html"));
   const text = await page.locator("p.words").first().textContent();
-  assert.match(text, /goes on and on turns 3 times.* It reaches its rest, −2\.822 mm, at 0\.4321 s\. Mass b/);
+  assert.match(text, /goes on and on turns 3 times.* It reaches its rest position, −2\.822 mm, at 0\.4321 s\. Mass b/);
   assert.match(text, /Mass b .* It tends to −2\.822 mm\./);
   assert.doesNotMatch(text, /decrement|–/);
   for (const width of [1200, 390]) {

@@ -124,7 +124,7 @@ test("a decay: that it comes to rest, when and where; what its energy balance is
   assert.ok(Number.isFinite(record.stop_time)); // NaN: it never comes to rest
   const stop = record.stop_time.toPrecision(10);
   assert.match(said, new RegExp(`comes to rest at ${stop} s`));
-  assert.match(shown, /From 10\.77 s on nothing moves/);
+  assert.match(shown, /Nothing moves after 10\.77 s/);
   assert.match(shown, new RegExp(`all at rest from\\s+${record.stop_time.toPrecision(8)} s`));
   assert.equal(record.main_extremum.length, 82);
   assert.match(said, /main: 82 extrema/);

@@ -183,7 +183,7 @@ test("samples have quantile bands, a histogram and a tornado", async (t) => {
   );
 
   await page
-    .locator("label", { hasText: "quantity that scatters" })
+    .locator("label", { hasText: "quantity shown" })
     .locator("select")
     .selectOption("absorber_spring_stroke");
   await page.waitForFunction(() =>

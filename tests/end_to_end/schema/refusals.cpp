@@ -3,7 +3,8 @@
 #include <iostream>
 #include <string>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/study.hpp"
 
 int main() {
   using namespace frahm::studies;

@@ -87,8 +87,8 @@ test("the closest pair and what is not told from zero are named", () => {
   const text = whatItMeans(found).flat().join(" ");
   assert.match(text, /c = 26\.5 N s\/m \(95 %: −1 to 54\); d = 15 N \(95 %: 14 to 16\)/);
   assert.match(text, /99\.5 % of run, 98 % of run 2/);
-  assert.match(text, /Not told from zero at 95 %: c\./);
-  assert.match(text, /The data hardly tell apart c and d \(correlation −0\.99\)\./);
+  assert.match(text, /Not distinguished from zero at 95 %: c\./);
+  assert.match(text, /The data hardly distinguish c and d \(correlation −0\.99\)\./);
 });
 
 test("a fit that did not converge warns, and notes are kept line by line", () => {

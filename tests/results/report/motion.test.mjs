@@ -56,7 +56,7 @@ const told = (motion) => whatItMeans(motion).flat().join(" ");
 
 test("a decay that does not come to rest says so once, and one without friction never arrives", () => {
   const moving = told(decay());
-  assert.match(moving, /It does not reach its rest, 0 m, within 4 s\./);
+  assert.match(moving, /It does not reach its rest position, 0 m, within 4 s\./);
   assert.doesNotMatch(moving, /comes to/);
   const free = told(decay({}, { rubbing_elements: ["1", "", 0] }));
   assert.match(free, /It tends to 0 m without ever arriving\./);
@@ -66,7 +66,7 @@ test("a decay that does not come to rest says so once, and one without friction 
     whatItMeans(decay({ stop_time: ["s", "", 3.5] }))
       .flat()
       .join(" "),
-    /From 3\.5 s on nothing moves\./,
+    /Nothing moves after 3\.5 s\./,
   );
 });
 
@@ -82,7 +82,7 @@ test("the damping budget names each share", () => {
   )
     .flat()
     .join(" ");
-  assert.match(text, /Of 4 J dissipated, 75 % in guide, 25 % in c\. The energy balance closes to 1×10⁻¹²\./);
+  assert.match(text, /Of the 4 J dissipated, 75 % in guide, 25 % in c\. The energy balance closes to 1×10⁻¹²\./);
 });
 
 test("a contact that is not released sticks to the end", () => {
@@ -202,7 +202,7 @@ test("a history of fewer than 8 samples a period is sparse, and is told how many
   assert.equal(samplingOf(sampledDecay(402)).sparse, false);
   assert.match(
     sparseText(sampledDecay(51)),
-    /stand 2 s apart, 1 to a period of 2 s: .* dots, .* With samples = 1001 or more in \[decay\]/,
+    /are 2 s apart, 1 per period of 2 s: .* dots, .* With samples = 1001 or more in \[decay\]/,
   );
   assert.equal(sparseText(sampledDecay(1001)), "");
   assert.equal(samplingOf(decay()).sparse, false);
@@ -240,7 +240,7 @@ test("a forced history is sparse by its excitation's period, or by a peak that i
 
 test("decrements and turning points below rounding are told as rounding", () => {
   const undamped = decay({ main_log_decrement: ["1", "extremum", [1e-15, -2e-15, NaN, NaN, NaN]] });
-  assert.match(told(undamped), /Its logarithmic decrement is 0 but for rounding: nothing damps it\./);
+  assert.match(told(undamped), /Its logarithmic decrement is 0 apart from rounding: nothing damps it\./);
   const far = decay({
     main_extremum: ["m", "extremum", [0.008, -0.006, 1e-16, -1e-17, NaN]],
     main_log_decrement: ["1", "extremum", [0.5, NaN, NaN, NaN, NaN]],
@@ -278,13 +278,13 @@ test("a start from rest at zero is no turning point", () => {
   assert.match(told(coupled()), /Mass a turns 2 times, first at 9 mm, last at −3 mm\./);
 });
 
-test("each mass is told as held by friction, on its way, or tending to its rest, by its own turning points", () => {
+test("each mass is told as held by friction, on its way, or tending to its rest position, by its own turning points", () => {
   const text = told(coupled());
-  assert.match(text, /Mass a .* It reaches its rest, −3 mm, at 2 s\. Mass b .* It tends to −3 mm\./);
+  assert.match(text, /Mass a .* It reaches its rest position, −3 mm, at 2 s\. Mass b .* It tends to −3 mm\./);
   const cut = told(coupled({}, { given_duration: ["1", "", 1] }));
   assert.match(
     cut,
-    /Mass a .* It reaches its rest, .* Mass b .* It does not reach its rest, −3 mm, within 4 s\./,
+    /Mass a .* It reaches its rest position, .* Mass b .* It does not reach its rest position, −3 mm, within 4 s\./,
   );
   const withoutFriction = told(coupled({}, { rubbing_elements: ["1", "", 0] }));
   assert.match(withoutFriction, /Mass a .* It tends to −3 mm without .* Mass b .* It tends to −3 mm without/);
@@ -294,7 +294,7 @@ test("a decrement is told of what swings about zero, and as a damping ratio only
   assert.doesNotMatch(told(coupled()), /decrement|–/);
   const alternating = told(coupled({ b_extremum: ["m", "extremum", [0.03, -0.016, 0.001, -0.0007]] }));
   assert.match(alternating, /Its logarithmic decrement is 3\.4 in the first cycle and 0\.83 in the last\./);
-  assert.match(told(decay()), /0\.6931 in the first cycle \(as of 11 % viscous damping\)/);
+  assert.match(told(decay()), /0\.6931 in the first cycle \(as with 11 % viscous damping\)/);
 });
 
 test("what friction holds from the start does not move", () => {
@@ -305,7 +305,7 @@ test("what friction holds from the start does not move", () => {
     main_rest: ["m", "", 0.01],
     stop_time: ["s", "", 0],
   });
-  assert.equal(told(still), "Mass main does not move: it lies at 10 mm.");
+  assert.equal(told(still), "Mass main does not move: it rests at 10 mm.");
 });
 
 test("a dimensionless motion has no seconds, metres or joules", () => {

@@ -302,7 +302,7 @@ test("a trade-off tells which limits converged and which design is shown", () =>
   const tuning = tuningOf(record);
   assert.deepEqual(whatItMeans(tuning)[0], [
     "Trade-off over 4 limits of stroke, 2 converged: worst main peak from 20.52 mm at 40 mm to 21.08 mm at 36 mm.",
-    "What follows is the design for the last, 5 mm.",
+    "What follows is the design for the last limit, 5 mm.",
   ]);
   assert.match(outcomeWarning(tuning), /^For the last limit, 5 mm: no design was found/);
 });
@@ -318,9 +318,9 @@ test("a schedule tells where it is as steep as it may be, and one that dominates
   const text = told(scheduled, 1, { dominate: "constant" });
   assert.match(
     text,
-    /k changes as fast as it may \(100 N\/m per rad\/s of ω\) at 2 of 3 pieces, which holds it too\./,
+    /k changes as fast as allowed \(100 N\/m per rad\/s of ω\) at 2 of 3 pieces, which also holds the design\./,
   );
-  assert.match(text, /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which holds it too\./);
+  assert.match(text, /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which also holds the design\./);
   assert.doesNotMatch(told(scheduled), /nowhere above/);
   assert.ok(Number.isNaN(steepestPieces(tuningOf(minimax()).parameters[0])));
 });
@@ -406,6 +406,6 @@ test("of several responses the page claims no more than what was found", () => {
   assert.match(text({}), /Certificate: all peaks/);
   assert.doesNotMatch(text({}), /Several responses/);
   const searched = text({ not_proved: "it is not proved that none was missed" });
-  assert.match(searched, /Of the responses found: all peaks/);
+  assert.match(searched, /Among the responses found: all peaks/);
   assert.match(searched, /Several responses may exist: it is not proved that none was missed\./);
 });

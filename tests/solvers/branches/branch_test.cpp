@@ -8,6 +8,7 @@
 
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/orbits/closed_forms.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 
 namespace frahm::periodic::branch_test {
@@ -306,6 +307,68 @@ TEST_CASE("A branch stops after as many points as are wanted") {
       stop_branch(0.05, 4.0, 0.0, {.low = 1.1, .high = 2.5, .start = 1.2, .most_points = 20});
   CHECK(branch.last_end == BranchEnd::points);
   CHECK(branch.points.size() <= 39);
+}
+
+// The upper stop is only just touched at r = 1.25960079587108: where the largest displacement is the
+// clearance, by halving over points.
+TEST_CASE("A grazing that lies at the section of its orbits has its residual too") {
+  Network network = mass_between_stops();
+  network.elements.push_back({"guide", ElementType::coulomb, ground, mass});
+  network.elements.back().has_static_force = true;
+  network.excitations.push_back({ExcitationKind::force, 0, 0});
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.25},
+                         .element = {1.91, 0.153, 19.8, 0.198},
+                         .excitation = {{1.0, 0.0}, {-0.4, 0.0}},
+                         .second = {0.0, 0.0, 0.0, 0.542},
+                         .bends = {{}, {}, {{1.08, 19.8, 0.0}, {1.08, 19.8, 0.0}}, {}}};
+  };
+  const Branch branch = follow_branch(network, asked, values, {.low = 0.3, .high = 3.0, .start = 2.354});
+  REQUIRE(branch.reason.empty());
+  constexpr double kPlace = 1.25960079587108;
+  int found = 0;
+  for (const SpecialPoint& grazing : of_kind(branch, SpecialKind::grazing)) {
+    CHECK(grazing.residual < kExact);
+    if (std::abs(grazing.at.parameter - kPlace) < kExact) ++found;
+  }
+  CHECK(found == 1);
+}
+
+// A mass on a spring and two sliders with springs, driven towards the resonance of the spring alone: there
+// the force of the friction, 4 F/pi, no longer holds it, and the peak grows like P/abs(k - r^2). Its sliders
+// turn close to the section.
+TEST_CASE("Orbits of a branch that turn close to their section balance, though large") {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"first", ElementType::jenkins, ground, mass},
+                               {"second", ElementType::jenkins, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0},
+                         .element = {5.0, 1.0, 2.0},
+                         .excitation = {{2.0, 0.0}},
+                         .second = {0.0, 0.1, 0.4}};
+  };
+  const Branch branch = follow_branch(network, asked, values, {.low = 2.0, .high = 3.0, .start = 2.0});
+  REQUIRE(branch.reason.empty());
+  PeriodicResponse response(network, asked);
+  std::vector<double> quantities(asked.size());
+  int compared = 0;
+  constexpr double kEnd = 2.235774;  // the branch is lost there
+  for (std::size_t i = 0; i < branch.points.size() && branch.points[i].parameter < kEnd; ++i) {
+    const BranchPoint& point = branch.points[i];
+    INFO("r = " << point.parameter);
+    CHECK(point.stable);
+    response.set_values(values(point.parameter));
+    REQUIRE(response.solve().status == Status::ok);
+    response.quantities(quantities);
+    CHECK(point.quantities[0] == Approx(quantities[0]).epsilon(kPrinted));
+    ++compared;
+  }
+  CHECK(compared > 500);
 }
 
 }  // namespace

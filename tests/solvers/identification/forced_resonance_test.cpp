@@ -187,7 +187,7 @@ TEST_CASE("Where the response scatters a note says that slope and damping are to
   const Identification result = forced_resonance(loose, ResponseTo::support, known);
   REQUIRE(result.failure == "");
   REQUIRE(!result.notes.empty());
-  CHECK_THAT(result.notes[0], Contains("scatter about the line, R^2 = 0."));
+  CHECK_THAT(result.notes[0], Contains("scatter about the line with R^2 = 0."));
 }
 
 }  // namespace

@@ -217,7 +217,7 @@ TEST_CASE("Fewer values than unknowns are refused, a constant record has no fit 
   three.time.resize(3);
   three.channels[0].values.resize(3);
   CHECK(grey_box(task_of(three, kTruth)).failure ==
-        "the records have 3 measured values for 4 unknowns: at least as many are needed");
+        "the records have 3 measured values for 4 unknowns: at least as many values as unknowns are needed");
   for (const double level : {0.0, 0.001}) {
     record.channels[0].values.assign(record.time.size(), level);
     const Identification found = grey_box(task_of(record, absorber(1.0, 10900.0, 14.0, 0.0295)));
@@ -235,7 +235,7 @@ TEST_CASE("A wrong model is told by what it misses and by residuals that follow 
   const Identification found = grey_box(task);
   CHECK(found.converged);
   CHECK(has_note(found, "of record 'decay': a wrong model or a wrong minimum"));
-  CHECK(has_note(found, "its values follow one another: the intervals are too narrow"));
+  CHECK(has_note(found, "its values are correlated: the intervals are too narrow"));
 }
 
 }  // namespace

@@ -228,9 +228,9 @@ TEST_CASE("A curve or a table that tells no damping says why") {
   CHECK_THAT(half_power(HalfPowerRows{}, ResponseTo::force).failure, Contains("no rows"));
   CHECK_THAT(
       resonance_magnification({.static_displacement = {1.0}, .resonant = {0.5}}, ResponseTo::force).failure,
-      Contains("no larger than the static"));
+      Contains("not larger than the static"));
   CHECK_THAT(resonance_magnification(curve_of(0.05, ResponseTo::force, 81), 20.0, ResponseTo::force).failure,
-             Contains("no larger than the static displacement of 20"));
+             Contains("not larger than the static displacement of 20"));
 }
 
 }  // namespace

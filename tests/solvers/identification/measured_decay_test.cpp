@@ -168,7 +168,7 @@ TEST_CASE("A decay that does not decay cannot tell damping from negative frictio
   }
   CHECK_THAT(value_of(result, "damped_frequency"), WithinRel(5.0, kExact));
   REQUIRE(result.notes.size() == 2);
-  CHECK_THAT(result.notes[0], Contains("cannot be told apart"));
+  CHECK_THAT(result.notes[0], Contains("cannot be distinguished"));
   const Identification viscous = log_decrement(trace.time, trace.displacement, std::nullopt);
   REQUIRE(viscous.failure == "");
   CHECK_THAT(value_of(viscous, "damping_ratio"), WithinAbs(0.0, kExact));
@@ -347,7 +347,7 @@ TEST_CASE("Samples that are missing, wild, clipped or too far apart are refused 
   Trace coarse = trace_of({.m = 2.0, .k = 50.0}, 6.3, 600.0);
   for (double& x : coarse.displacement) x = 0.001 * std::round(1000.0 * x);
   CHECK(failure(coarse) == "");
-  CHECK_THAT(failure(trace_of({.m = 2.0, .k = 50.0, .zeta = 0.02}, 8.3, 8.0)), Contains("samples a cycle"));
+  CHECK_THAT(failure(trace_of({.m = 2.0, .k = 50.0, .zeta = 0.02}, 8.3, 8.0)), Contains("samples per cycle"));
   const Trace loud{trace.time, Noise(1).on(trace.displacement, 0.15)};
   CHECK_THAT(failure(loud), Contains("the threshold of 20 standard deviations of its noise, 0.1"));
 }

@@ -112,11 +112,11 @@ TEST_CASE("Values out of range are refused by name, value and rule") {
   bad = good;
   bad.mass[1] = 1e-300;
   bad.element[6] = 0.0;
-  CHECK(refusal(network, bad) == "the mass at 'tmd' = 1e-300: is lost in rounding beside 102.66 at 'main'");
+  CHECK(refusal(network, bad) == "the mass at 'tmd' = 1e-300: is lost in rounding next to 102.66 at 'main'");
   bad = good;
   bad.element[0] = 1e300;
   CHECK(refusal(network, bad) ==
-        "the stiffness at 'tmd' = 10985.1: is lost in rounding beside 1e+300 at 'main'");
+        "the stiffness at 'tmd' = 10985.1: is lost in rounding next to 1e+300 at 'main'");
   for (const double omega : {0.0, -1.0, infinity, std::nan("")}) {
     bad = good;
     bad.omega = omega;

@@ -193,8 +193,9 @@ TEST_CASE("Modes of one frequency may have one ratio, but not two") {
   Assembly(network).set_values(values, system);
   CHECK(std::abs(system.C(0, 0) - 0.2) < kRounding);
   values.damping = {0.05, 0.04};
-  CHECK_THROWS_WITH(Assembly(network).set_values(values, system),
-                    Catch::Contains("modes 1 and 2 have one frequency") && Catch::Contains("0.05 and 0.04"));
+  CHECK_THROWS_WITH(
+      Assembly(network).set_values(values, system),
+      Catch::Contains("modes 1 and 2 have the same frequency") && Catch::Contains("0.05 and 0.04"));
 }
 
 TEST_CASE("The arctan law too keeps the balance with damping of the structure") {

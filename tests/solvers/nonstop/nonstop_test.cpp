@@ -11,7 +11,13 @@
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/nonstop/two_ways.hpp"
 
-// Orbits from the phases of their events, beside the same by shooting.
+#if defined(FRAHM_KERNELS_FROM_V3)
+namespace frahm::periodic::nonstop {
+Solve solve_portable;  // compiled with this program
+}
+#endif
+
+// Orbits from the phases of their events, next to the same ones by shooting.
 namespace frahm::periodic::nonstop_test {
 namespace {
 
@@ -243,13 +249,23 @@ std::vector<mechanics::NetworkValues> rig_row(double I, double share) {
   return row;
 }
 
+// Those of the library, and the portable one.
+std::vector<nonstop::Kernel> compared_kernels() {
+  const auto all = nonstop::kernels();
+  std::vector<nonstop::Kernel> compared(all.begin(), all.end());
+#if defined(FRAHM_KERNELS_FROM_V3)
+  compared.push_back({"portable", true, nonstop::solve_portable});
+#endif
+  return compared;
+}
+
 TEST_CASE("every instruction set gives the same bytes") {
   const mechanics::Network network = rig();
   const std::vector<Quantity> quantities = all_quantities(network);
   const mechanics::Assembly assembly(network);
   const std::vector<mechanics::NetworkValues> row = rig_row(8.81, 0.1);
   std::vector<std::vector<double>> of_kernel;
-  for (const nonstop::Kernel& kernel : nonstop::kernels()) {
+  for (const nonstop::Kernel& kernel : compared_kernels()) {
     if (!kernel.runs_here) continue;
     nonstop::NonstopSolver solver(assembly, quantities);
     solver.use(kernel);

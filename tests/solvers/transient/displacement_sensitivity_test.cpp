@@ -179,7 +179,7 @@ TEST_CASE("A harmonic beside the records, and a direction that changes the frequ
   };
   NetworkValues by_frequency = periodic::zero_direction(values);
   by_frequency.omega = 1.0;
-  refused(std::span(&by_frequency, 1), "by a frequency");
+  refused(std::span(&by_frequency, 1), "with respect to a frequency");
   network.excitations.push_back({ExcitationKind::force, 0, 1});
   values.excitation.push_back({1.0, 0.0});
   refused({}, "only constant forces");

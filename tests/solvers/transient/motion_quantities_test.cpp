@@ -229,7 +229,7 @@ TEST_CASE("A run-up tells the peaks of its finest stairs and their error") {
     here.omega = omega;
     return here;
   };
-  ForcedOptions options{.from = 0.4, .sweep = {.to = 1.4, .rate = 0.05}, .duration = 20.0, .samples = 101};
+  ForcedOptions options{.from = 0.4, .run_up = {.to = 1.4, .rate = 0.05}, .duration = 20.0, .samples = 101};
   const ForcedMotion single = forced_motion(chain.network, at, {}, options);
   options.quantities = asked;
   const ForcedMotion asked_alone = forced_motion(chain.network, at, {}, options);

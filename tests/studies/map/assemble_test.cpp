@@ -13,8 +13,9 @@
 #include "engine/shard_log.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_reader.hpp"
-#include "studies/map/tile_record.hpp"
-#include "studies/record/assembly_stage.hpp"
+#include "studies/map/tile_entry.hpp"
+#include "studies/provenance/assembly_stage.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
@@ -62,17 +63,17 @@ std::uint64_t place_of(const Grid& grid, const std::vector<std::uint64_t>& index
 engine::Bytes tile_bytes(const MapPlan& plan, std::uint64_t tile, bool failed) {
   const MapBox box = plan.grid.box(tile);
   const std::vector<std::size_t> dimensions{0, 1};
-  TileRecord record;
+  TileEntry entry;
   for (std::size_t v = 0; v < 3; ++v) {
     std::vector<std::uint64_t> index = box.start;
     do {
-      record.values.push_back(value_at(v, place_of(plan.grid, index)));
+      entry.values.push_back(value_at(v, place_of(plan.grid, index)));
     } while (next_point(box, dimensions, index));
   }
   for (std::uint64_t offset = 0; failed && offset < box.points(); ++offset)
-    record.failed.push_back({offset, "tile " + std::to_string(tile)});
+    entry.failed.push_back({offset, "tile " + std::to_string(tile)});
   engine::Bytes bytes;
-  encode(record, bytes);
+  encode(entry, bytes);
   return bytes;
 }
 
@@ -226,7 +227,7 @@ TEST_CASE("a record that is no tile's ends the assembly with an error and leaves
         .append(bad, engine::Bytes(100));
     const auto before = names_in(folder / "");
     CHECK_THROWS_WITH(assembled(plan, options_of(folder / "map.h5", threads)),
-                      Contains("shorter than it says"));
+                      Contains("shorter than its header says"));
     CHECK(names_in(folder / "") == before);
   }
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "results/map_reader.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/temporary_folder.hpp"
 

@@ -3,8 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "studies/map/map_groups.hpp"
 #include "studies/map/map_plan.hpp"
-#include "studies/map/map_record.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace known_digits_test {

@@ -5,6 +5,7 @@
 
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/map/map_plan.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace map_kernel_test {
@@ -29,17 +30,17 @@ frahm::engine::Bytes bytes_of(MapKernel& kernel, std::uint64_t tile) {
   return bytes;
 }
 
-TileRecord tile_of(const MapPlan& plan, std::uint64_t tile) {
+TileEntry tile_of(const MapPlan& plan, std::uint64_t tile) {
   MapKernel kernel(plan.study, plan.grid, plan.quantities);
-  TileRecord record;
-  decode(bytes_of(kernel, tile), plan.grid.box(tile).points() * plan.variables.size(), record);
-  return record;
+  TileEntry entry;
+  decode(bytes_of(kernel, tile), plan.grid.box(tile).points() * plan.variables.size(), entry);
+  return entry;
 }
 
 TEST_CASE("a tile holds the responses of its points in the map's order") {
   const MapPlan plan = plan_of(oscillator() + axis("f", 0, 0.4, 3) + axis("r", 0.8, 1.2, 5) + peaks);
   REQUIRE(plan.grid.tiles() == 1);
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 5; ++j) {
       INFO("point " << i << ", " << j);
@@ -52,9 +53,9 @@ TEST_CASE("a tile holds the responses of its points in the map's order") {
 }
 
 TEST_CASE("the place of the frequency among the axes does not change the responses") {
-  const TileRecord last =
+  const TileEntry last =
       tile_of(plan_of(oscillator() + axis("f", 0, 1, 7) + axis("r", 0.3, 1.2, 9) + peaks), 0);
-  const TileRecord first =
+  const TileEntry first =
       tile_of(plan_of(oscillator() + axis("r", 0.3, 1.2, 9) + axis("f", 0, 1, 7) + peaks), 0);
   for (std::size_t q = 0; q < 3; ++q) {
     for (std::size_t i = 0; i < 7; ++i) {
@@ -76,7 +77,7 @@ TEST_CASE(
     "a point whose values break a rule of mechanics fails with the reason, and the others are computed") {
   const MapPlan plan =
       plan_of(oscillator("\"k\"") + axis_of("k", "[1, -1, 2]") + axis_of("r", "[0.5, 0.6]") + peaks);
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   REQUIRE(tile.failed.size() == 2);
   CHECK(tile.failed[0].offset == 2);
   CHECK_THAT(tile.failed[0].reason, Catch::Contains("stiffness") && Catch::Contains("not positive definite"));
@@ -88,7 +89,7 @@ TEST_CASE(
 
 TEST_CASE("a map without a frequency axis is computed, also where stiffness and damping change") {
   const MapPlan plan = plan_of(oscillator("\"k\"") + axis("k", 1, 2, 3) + axis("zeta", 0.1, 0.5, 3) + peaks);
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       // In units of the stiffness k: r / sqrt k, c / (2 sqrt k), f, x k.
@@ -104,7 +105,7 @@ TEST_CASE("frequencies that stand still or turn back along a zip are computed li
   const std::string zip = "zip = \"path\"\n";
   const MapPlan plan = plan_of(oscillator() + axis_of("r", "[0.7, 0.8, 0.8, 0.7, 0.7, 1.3]", zip) +
                                axis_of("f", "[0.1, 0.1, 0.2, 0.2, 0.1, 0.1]", zip) + peaks);
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   const double r[] = {0.7, 0.8, 0.8, 0.7, 0.7, 1.3}, f[] = {0.1, 0.1, 0.2, 0.2, 0.1, 0.1};
   for (int i = 0; i < 6; ++i) {
     const double expected = frahm::periodic::non_stop_response(r[i], 0.05, f[i]).amplitude;
@@ -115,7 +116,7 @@ TEST_CASE("frequencies that stand still or turn back along a zip are computed li
 const std::string compare_laws = "[compare]\nlaw = \"arctan\"\nslope = 1e3\n";
 
 // The kernel's values of a variable of a plan.
-std::vector<double> values_of(const MapPlan& plan, const TileRecord& tile, const std::string& name) {
+std::vector<double> values_of(const MapPlan& plan, const TileEntry& tile, const std::string& name) {
   const std::size_t points = tile.values.size() / plan.variables.size();
   for (std::size_t v = 0; v < plan.variables.size(); ++v) {
     if (plan.variables[v].name != name) continue;
@@ -133,7 +134,7 @@ TEST_CASE("what is compared is what a study of the other law has itself") {
   std::string text = oscillator();
   text.insert(text.find("force = \"f\""), "law = \"arctan\"\nslope = 1e3\n");
   const MapPlan other = plan_of(text + axes + every_bit);
-  const TileRecord tile = tile_of(both, 0), alone = tile_of(other, 0);
+  const TileEntry tile = tile_of(both, 0), alone = tile_of(other, 0);
   CHECK(values_of(both, tile, "main_peak_compared") == values_of(other, alone, "main_peak"));
   CHECK(values_of(both, tile, "status_compared") == std::vector<double>(12, 1.0));
   const auto own = values_of(both, tile, "main_peak"), compared = values_of(both, tile, "main_peak_compared");
@@ -145,7 +146,7 @@ TEST_CASE("what is compared is what a study of the other law has itself") {
 TEST_CASE("a mean of nothing but rounding has no relative difference") {
   const MapPlan plan = plan_of(oscillator() + axis("r", 0.8, 1.2, 3) + peaks + compare_laws +
                                "quantities = [\"main_mean\", \"main_rms\"]\n");
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   for (const double difference : values_of(plan, tile, "main_mean_difference")) CHECK(std::isnan(difference));
   for (const double difference : values_of(plan, tile, "main_rms_difference")) CHECK(difference < 0.1);
 }
@@ -153,7 +154,7 @@ TEST_CASE("a mean of nothing but rounding has no relative difference") {
 TEST_CASE("a quantity can be compared that the study does not record itself") {
   const MapPlan plan = plan_of(oscillator() + axis("r", 0.8, 1.2, 2) + peaks + compare_laws +
                                "quantities = [\"main_rms\", \"main_peak\"]\n");
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   REQUIRE(plan.variables.size() == 8);
   CHECK(plan.variables[3].name == "main_rms_compared");
   for (const double difference : values_of(plan, tile, "main_rms_difference")) CHECK(difference < 1e-3);
@@ -191,7 +192,7 @@ TEST_CASE("where only the compared law finds no orbit the point tells why and ke
   std::string text = oscillator();
   text.replace(text.find("zeta = 0.05"), 11, "zeta = 1e-7");
   const MapPlan plan = plan_of(text + axis_of("f", "[0, 0.9]") + axis_of("r", "[1]") + peaks + compare_laws);
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   REQUIRE(tile.failed.size() == 1);
   CHECK(tile.failed[0].offset == 0);
   CHECK_THAT(tile.failed[0].reason, Catch::StartsWith("compared: ") && Catch::Contains("estimated error"));

@@ -4,7 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace motion_kernel_test {
@@ -26,13 +27,13 @@ MapPlan plan_of(const std::string& text) {
   return plan_map(parse_study(text, "small.toml"), {});
 }
 
-TileRecord tile_of(const MapPlan& plan, std::uint64_t number) {
+TileEntry tile_of(const MapPlan& plan, std::uint64_t number) {
   MotionKernel kernel(plan, {});
   frahm::engine::Bytes bytes;
   kernel(number, bytes);
-  TileRecord record;
-  decode(bytes, plan.grid.box(number).points() * plan.variables.size(), record);
-  return record;
+  TileEntry entry;
+  decode(bytes, plan.grid.box(number).points() * plan.variables.size(), entry);
+  return entry;
 }
 
 TEST_CASE("each point of a map of motions is the motion that its study tells alone, to the last digit") {
@@ -41,7 +42,7 @@ TEST_CASE("each point of a map of motions is the motion that its study tells alo
                      "quantities = [\"main_peak\", \"main_peak_time\", \"friction_energy\"]\n"));
   for (std::uint64_t tile = 0; tile < plan.grid.tiles(); ++tile) {
     const MapBox box = plan.grid.box(tile);
-    const TileRecord record = tile_of(plan, tile);
+    const TileEntry entry = tile_of(plan, tile);
     std::vector<std::uint64_t> index = box.start;
     do {
       const std::string at = point_text(plan.study, index);
@@ -52,9 +53,9 @@ TEST_CASE("each point of a map of motions is the motion that its study tells alo
                                                              {*alone.parameters.find("r"), r[index[1]]}});
       const auto motion = solve_transient(alone);
       const std::uint64_t place = box.offset_of(index), points = box.points();
-      CHECK(record.values[place] == std::abs(motion.peaks[0].displacement));
-      CHECK(record.values[points + place] == motion.peaks[0].time);
-      CHECK(record.values[2 * points + place] == motion.energy.dissipated[2]);
+      CHECK(entry.values[place] == std::abs(motion.peaks[0].displacement));
+      CHECK(entry.values[points + place] == motion.peaks[0].time);
+      CHECK(entry.values[2 * points + place] == motion.energy.dissipated[2]);
     } while (next_point(box, plan.grid.order, index));
   }
 }
@@ -64,7 +65,7 @@ TEST_CASE("a motion whose values break a rule of mechanics is a point that fails
                                       "[output]\nquantities = [\"main_peak\", \"friction_slips\", "
                                       "\"status\"]\n"));
   REQUIRE(plan.grid.tiles() == 1);
-  const TileRecord tile = tile_of(plan, 0);
+  const TileEntry tile = tile_of(plan, 0);
   REQUIRE(tile.failed.size() == 1);
   CHECK(tile.failed[0].offset == 1);
   CHECK_THAT(tile.failed[0].reason, Catch::Contains("stiffness"));

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "studies/reading/parse_study.hpp"
 #include "tests/study_path.hpp"
 
 namespace frahm::studies::crank_motion_test {

@@ -2,8 +2,9 @@
 #include <sstream>
 #include <string>
 
-#include "studies/motion/motion_record.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/motion/one_motion.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/study.hpp"
 
 namespace decay_words_test {
 namespace {

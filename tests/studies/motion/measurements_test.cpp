@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/motion/motion_record.hpp"
+#include "studies/motion/one_motion.hpp"
 #include "studies/program/data_export.hpp"
+#include "studies/reading/parse_study.hpp"
 
 namespace measurements_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "results/map_reader.hpp"
 #include "solvers/orbits/closed_forms.hpp"
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 #include "tests/results/temporary_directory.hpp"
 #include "tests/studies/small_studies.hpp"
 

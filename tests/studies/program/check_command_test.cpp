@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "studies/map/map_sample.hpp"
-#include "studies/map/statistics_record.hpp"
+#include "studies/map/statistics_group.hpp"
 #include "studies/program/memory_use.hpp"
+#include "studies/reading/quantities/expression.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_sample.hpp"
@@ -84,7 +85,7 @@ TEST_CASE("a modal damping ratio above that of critical damping is noted, as 2 m
     CHECK(check_command({.study = folder / "study.toml", .threads = 1}, out) == 0);
     return out.str();
   };
-  CHECK(has(checked("2"), "note: [damping]: modal: a ratio of 2 is above 1, that of critical damping"));
+  CHECK(has(checked("2"), "note: [damping]: modal: a ratio of 2 is above 1 (critical damping)"));
   CHECK_FALSE(has(checked("0.02"), "note: [damping]"));
 }
 
@@ -102,7 +103,7 @@ TEST_CASE("A simulation of ranks tells time, efficiency and losses of 1, 10, 100
                     Catch::Contains("--simulate-ranks is for maps"));
   CHECK_THROWS_WITH(
       check_command({.study = study_path("rig_atlas"), .threads = 4096, .simulate_ranks = 100'000}, out),
-      Catch::Contains("threads in all"));
+      Catch::Contains("threads in total"));
 }
 
 TEST_CASE("A map of less than a second is predicted as that") {
@@ -230,7 +231,7 @@ TEST_CASE("Checking a tuning that finds no design says why, as a run does, and c
   CHECK(has(out.str(),
             "tune.toml can be read, but its first start finds no design: the design has no variance: "
             "the mass matrix of the moving nodes is not positive definite"));
-  CHECK(has(out.str(), "As the study states it there are no modes: the mass matrix"));
+  CHECK(has(out.str(), "The design of the study has no modes: the mass matrix"));
 }
 
 TEST_CASE("Checking an identification refuses what a run refuses") {

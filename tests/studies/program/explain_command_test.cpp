@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "studies/reading/element_keys.hpp"
-#include "studies/reading/study_keys.hpp"
-#include "studies/reading/units.hpp"
+#include "studies/reading/keys/element_keys.hpp"
+#include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/quantities/units.hpp"
 #include "studies/tuning/outcome_words.hpp"
 
 namespace explain_command_test {
@@ -41,12 +41,12 @@ TEST_CASE("every type of element is explained by its force and its keys with uni
     for (const std::string& key : keys_of_type(kind.name)) CHECK_THAT(text, Catch::Contains("\n  " + key));
   }
   CHECK_THAT(explained("spring"),
-             Catch::Contains("stiffness = k [N/m], of what turns [N m/rad], any number"));
-  CHECK_THAT(explained("maxwell"), Catch::Contains("damping = c [N s/m], of what turns [N m s/rad], > 0"));
+             Catch::Contains("stiffness = k [N/m], for a rotation [N m/rad], any number"));
+  CHECK_THAT(explained("maxwell"), Catch::Contains("damping = c [N s/m], for a rotation [N m s/rad], > 0"));
   CHECK_THAT(explained("coulomb"),
              Catch::Contains("static_force = F_s") && Catch::Contains(">= 0; may be left out"));
   CHECK_THAT(explained("gap"), Catch::Contains("on either side") && Catch::Contains("[lower, upper]"));
-  CHECK_THAT(explained("tension"), Catch::Contains("may pull too"));
+  CHECK_THAT(explained("tension"), Catch::Contains("may also pull"));
   CHECK_THAT(explained("mass.mass"), Catch::Contains("0 only where an inerter moves with it"));
   CHECK_THAT(explained("nrmse"), Catch::Contains("100 is a perfect fit"));
   CHECK_THAT(explained("iwan"), Catch::Contains("jenkins") && Catch::Contains("\n  chi: "));

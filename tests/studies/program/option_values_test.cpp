@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "studies/reading/study_source.hpp"
+#include "studies/reading/text/study_source.hpp"
 
 namespace option_values_test {
 namespace {
@@ -95,7 +95,7 @@ TEST_CASE("a value that is not possible is told in our words, with the nearest w
   CHECK(problem_of_whole_number("4096", 0, 4096).empty());
   for (const char* wrong : {"", "x", "4097", "-1", "1.5", "1x"})
     CHECK(problem_of_whole_number(wrong, 0, 4096) ==
-          "\"" + std::string(wrong) + "\" is no whole number from 0 to 4096");
+          "\"" + std::string(wrong) + "\" is not a whole number from 0 to 4096");
   CHECK(problem_of_number_above_zero("0.5").empty());
   for (const char* wrong : {"", "x", "0", "-1", "nan", "inf"})
     CHECK_FALSE(problem_of_number_above_zero(wrong).empty());

@@ -11,7 +11,7 @@
 
 #include "engine/io_error.hpp"
 #include "solvers/orbits/closed_forms.hpp"
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "tests/results/temporary_directory.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/study_path.hpp"

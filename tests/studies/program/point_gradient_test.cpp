@@ -9,7 +9,9 @@
 
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/program/point_command.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/study/study.hpp"
 #include "tests/study_path.hpp"
 
 namespace point_gradient_test {
@@ -111,7 +113,7 @@ values = [0.1, 0.2]
 TEST_CASE("A point tells its derivatives, exact, by differences and how far they are apart") {
   PointOptions options{.study = study_path("den_hartog"), .at = {"r=0.9", "f=0.1"}, .gradient = true};
   const std::string text = tell(options);
-  CHECK(text.find("Derivatives by parameters in SI units") != std::string::npos);
+  CHECK(text.find("Derivatives with respect to parameters in SI units") != std::string::npos);
   CHECK(text.find("\nby f ") != std::string::npos);
   CHECK(text.find("by differences") != std::string::npos);
   options.json = true;

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace record_table_test {
@@ -47,7 +48,7 @@ TEST_CASE("A baseline that drifts and samples too coarse for the first mode are 
   const std::string text = told(folder, "file = \"drift.csv\"\n", 5.0);
   CHECK_THAT(text, Contains("warning: acceleration of \"base\" by drift.csv: the support keeps a velocity"));
   CHECK_THAT(text,
-             Contains("warning: acceleration of \"base\": mode 1 (period 5 s) has 5 samples in a period"));
+             Contains("warning: acceleration of \"base\": mode 1 (period 5 s) has 5 samples per period"));
 }
 
 TEST_CASE("Samples that are missing are told with their place and are no coarse sampling") {
@@ -58,8 +59,8 @@ TEST_CASE("Samples that are missing are told with their place and are no coarse 
   folder.write("gap.csv", rows);
   const std::string text = told(folder, "file = \"gap.csv\"\n", 2.0);
   CHECK_THAT(text, Contains("warning: acceleration of \"base\" by gap.csv: no sample from 0.5 to 5.5 s, 50 "
-                            "times its usual interval of 0.1 s; a straight line between stands for them\n"));
-  CHECK_THAT(text, !Contains("samples in a period"));
+                            "times its usual interval of 0.1 s; a straight line replaces them\n"));
+  CHECK_THAT(text, !Contains("samples per period"));
   folder.write("uneven.csv", "0,0\n0.1,1\n0.2,-1\n1,1\n1.1,0\n");
   CHECK_THAT(told(folder, "file = \"uneven.csv\"\n", 20.0), !Contains("no sample"));
 }
@@ -84,7 +85,7 @@ TEST_CASE("A displacement by straight lines has its corners on purpose: its samp
                         Contains("straight lines between them"));
   CHECK_THAT(lines, !Contains("warning") && !Contains("note"));
   folder.write("pull.csv", "0,0\n1,0.1\n2,1\n3,0.5\n");
-  CHECK_THAT(text(""), Contains("samples in a period; the cubic spline"));
+  CHECK_THAT(text(""), Contains("samples per period; the cubic spline"));
 }
 
 TEST_CASE("Records of an axis have a line each, the first twelve") {

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace report_profile_test {

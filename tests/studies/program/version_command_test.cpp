@@ -4,7 +4,7 @@
 #include <regex>
 #include <sstream>
 
-#include "studies/record/build_facts.hpp"
+#include "studies/provenance/build_facts.hpp"
 
 namespace version_command_test {
 namespace {

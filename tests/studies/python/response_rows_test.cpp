@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "studies/map/row_solver.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace response_rows_test {

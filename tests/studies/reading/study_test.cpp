@@ -1,4 +1,4 @@
-#include "studies/reading/study.hpp"
+#include "studies/reading/study/study.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "studies/map/grid.hpp"
+#include "studies/reading/parse_study.hpp"
 #include "tests/study_path.hpp"
 
 namespace study_test {
@@ -289,7 +290,7 @@ TEST_CASE("more friction elements than a flag can name have no borders") {
            "[[axis]]\nparameter = \"r\"\nvalues = [0.5, 2]\n[output]\nborders = true\n";
   };
   CHECK(complaint_about(study(127)) == "none");
-  CHECK_THAT(complaint_about(study(128)), Catch::Contains("borders: of 128 coulomb elements; at most 127"));
+  CHECK_THAT(complaint_about(study(128)), Catch::Contains("borders: there are 128 coulomb elements; at most 127"));
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/study/study.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace wrong_studies_test {
@@ -190,8 +191,8 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
        "35:8: axis \"omega\": unit: the unit \"kg\" is that of a mass, but an angular frequency is expected "
        "(such as rad/s, rpm or Hz); the parameter is used as [excitation]: frequency"},
       {"element_without_moving_node",
-       "23:11: element \"damper\": between: neither \"ground\" nor \"base\" is a mass, so nothing moves the "
-       "element freely"},
+       "23:11: element \"damper\": between: neither \"ground\" nor \"base\" is a mass; at least one end must "
+       "be a mass"},
       {"mass_negative", "12:8: mass \"main\": mass: is -102.66 kg; must be >= 0"},
       {"compare_law_and_profile",
        "40:1: [compare]: needs either \"law\", another friction law, \"taylor_order\", another crank "
@@ -199,11 +200,11 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
        "or \"show\", another of several responses; it has law and taylor_order"},
       {"data_comma_mixed",
        "11:8: [[identify.record]] \"low\": data/decay_comma_mixed.csv:3: separated by commas, but line 1 by "
-       "semicolons; all rows are separated alike, and decimals are written with a point"},
+       "semicolons; all rows must have the same separator, and decimals are written with a point"},
       {"mass_floating_two",
        "14:1: the masses \"tmd\" and \"tip\" float free: no chain of springs leads to ground or to a node of "
-       "prescribed motion, so the stiffness matrix is not positive definite; a weak spring to ground, with a "
-       "frequency far below those of interest, holds them"},
+       "prescribed motion, so the stiffness matrix is not positive definite; add a weak spring to ground, "
+       "with a frequency far below those of interest, to hold them"},
       {"output_orbit_out_of_range",
        "24:11: element \"damper\": damping: is -1 N s/m at c = -1 N s/m ([output]: orbits); must be >= 0"},
       {"transient_coordinate_without_axis",

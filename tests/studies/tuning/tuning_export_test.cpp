@@ -3,8 +3,9 @@
 #include <sstream>
 
 #include "studies/map/map_plan.hpp"
-#include "studies/reading/toml_writing.hpp"
-#include "studies/record/study_plan.hpp"
+#include "studies/provenance/study_plan.hpp"
+#include "studies/reading/parse_study.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 #include "studies/tuning/schedule_table.hpp"
 #include "studies/tuning/sweep_study.hpp"
 #include "studies/tuning/tuning_plan.hpp"

@@ -55,7 +55,7 @@ function draw(canvas, estimates) {
     { ...canvas, height },
     {
       marginLeft,
-      x: { type: "band", padding: 0.03, domain: numbers, label: "estimate, by its number" },
+      x: { type: "band", padding: 0.03, domain: numbers, label: "number of the estimate" },
       y: {
         type: "band",
         padding: 0.03,
@@ -79,7 +79,7 @@ export function correlationFigure(estimates) {
   return {
     name: "correlations",
     title: "Correlations of the estimates",
-    caption: "Near \u22121 or 1 the data tell the two hardly apart.",
+    caption: "Near \u22121 or 1 the data hardly distinguish the two estimates.",
     draw: (canvas) => draw(canvas, estimates),
     table: () => [
       { name: "estimate", unit: "1", values: estimates.map(({ name }) => name) },

@@ -24,7 +24,7 @@ export function crankMotionFigure(crank) {
   return lineFigure({
     name: `crank_${name}`,
     title: `What the crank drives: ${words(name)}`,
-    caption: "The exact motion, and its series in crank over rod cut after an order.",
+    caption: "The exact motion and its series in crank over rod, cut at an order.",
     x: angleAxis(crank),
     y: { label: `displacement of ${words(name)}`, unit: motion.unit },
     lines: [
@@ -51,7 +51,7 @@ export function crankErrorFigure(crank) {
   const { name, angle, cuts } = crank;
   return lineFigure({
     name: `crank_errors_${name}`,
-    title: `What the series of ${words(name)} misses`,
+    title: `Error of the series of ${words(name)}`,
     caption: "Relative to the distance from the crank's bearing to the driven node.",
     x: angleAxis(crank),
     y: { label: "relative error", unit: "1", type: "log", decades: 6 },

@@ -31,7 +31,7 @@ function drawnData(series) {
 function undeterminedText(estimates) {
   const names = estimates.filter(({ value }) => Number.isNaN(value)).map(({ name }) => symbolText(name));
   if (names.length === 0) return "";
-  return ` The model is drawn at values of ${names.join(", ")} that the data do not determine: others draw the same.`;
+  return ` The model is drawn at values of ${names.join(", ")} that the data do not determine; other values give the same curve.`;
 }
 
 function fitFigure(series, estimates) {
@@ -69,7 +69,7 @@ function residualFigure(series) {
   return lineFigure({
     name: `residual_${name}`,
     title: `${titleOf(series)}, residual`,
-    caption: `Data less model; root mean square ${quantityText(residualRms(series), residual.unit, 4)}.`,
+    caption: `Data minus model; root mean square ${quantityText(residualRms(series), residual.unit, 4)}.`,
     x: xAxis(series),
     y: { label: "residual", unit: residual.unit, zero: true },
     lines: many ? [{ ...drawn, width: 1.1 }] : [],

@@ -31,7 +31,7 @@ function moments({ stopTime, units }) {
   return Number.isFinite(stopTime) ? [{ x: stopTime, text: `all at rest from ${from}`, dash: "2 3" }] : [];
 }
 
-const sparseCaption = "Samples, not joined: they stand too far apart to show the motion between them.";
+const sparseCaption = "Samples, not joined: they are too far apart to show the motion between them.";
 
 // Draws curves as dots if the samples are too far apart to be joined.
 function joinedOrDots(motion, lines) {
@@ -204,12 +204,12 @@ function turningFigure(motion, mass) {
 function decrementFigure(motion) {
   const { masses } = motion;
   const meaning = isOneMode(motion)
-    ? "Of viscous damping it is the same in every cycle; friction makes it grow."
-    : "It is of displacements from zero: of a mass that swings about another place, or in several modes at once, it " +
-      "is no measure of the damping.";
+    ? "With viscous damping it is the same in every cycle; friction makes it grow."
+    : "It is computed from displacements from zero: for a mass that swings about another place, or in several modes at once, it " +
+      "is not a measure of the damping.";
   const shown = masses.filter(({ decrements }) => decrements.length > 0);
   const early = shown.some(decrementsEndEarly)
-    ? " It ends before the motion does: the turning points after it are rounding."
+    ? " It ends before the motion does, because the turning points after it are rounding."
     : "";
   const lines = shown.map(({ name, decrements }, i) => ({
     name: `${name}_log_decrement`,
@@ -233,7 +233,7 @@ function portraitFigure({ name, displacement, velocity }) {
   return lineFigure({
     name: `phase_portrait_${name}`,
     title: `Phase portrait of ${words(name)}`,
-    caption: "Filled: where it starts.",
+    caption: "The filled point is the start.",
     ratio: 0.8,
     x: { label: "displacement", name: displacement.name, unit: displacement.unit },
     y: { label: "velocity", unit: velocity.unit },
@@ -324,7 +324,7 @@ function dissipationFigure(motion) {
   const shown = energies.filter(({ dissipated }) => dissipated);
   return lineFigure({
     name: "dissipation",
-    title: "Energy dissipated until then",
+    title: "Energy dissipated so far",
     caption: "",
     x: timeAxis(motion),
     y: { label: "energy dissipated", unit: units.energy, zero: true },

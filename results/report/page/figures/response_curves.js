@@ -190,7 +190,7 @@ export function responseCurves(canvas, map, variable, state) {
   const followed = branches.flat(),
     special = specialPoints(followed);
   rows.push(...specialTips(special, symbolText(x.name), label));
-  const nothing = [Plot.text(["no number along this line"], { frameAnchor: "middle", fontSize: 13 })];
+  const nothing = [Plot.text(["no value along this line"], { frameAnchor: "middle", fontSize: 13 })];
   return drawFrame(canvas, {
     x: xAxis(canvas, map, state.axis, x),
     y: yAxis(variable, state, label, [...values, ...followed.map(({ y }) => y)]),

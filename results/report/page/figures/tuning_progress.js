@@ -41,10 +41,10 @@ export function detuningFigure({ group, parameters, kind }) {
   const grows = kind === "minimax" ? "worst peak" : "objective";
   return lineFigure({
     name: "detuning",
-    title: "What a parameter that is off costs",
+    title: "The cost of a parameter that is off",
     caption:
-      `One parameter is changed, the others stay. Where the ${grows} falls, a bound or a limit stands in ` +
-      `the way of the change.`,
+      `One parameter is changed, the others are kept. Where the ${grows} falls, a bound or a limit prevents ` +
+      `the change.`,
     x: { label: "change of one parameter", name: "change", unit: "percent" },
     y: { label: `growth of the ${grows}`, unit: "percent" },
     lines,
@@ -69,8 +69,8 @@ function settlingText(tuning) {
   const count = settlingRounds(tuning);
   if (count === 0) return "";
   return (
-    ` The last ${count === 1 ? "round is" : `${count} rounds are`} not drawn: with the worst peak held, ` +
-    `${count === 1 ? "it presses" : "they press"} the mean response down.`
+    ` The last ${count === 1 ? "round is" : `${count} rounds are`} not drawn: with the worst peak fixed, ` +
+    `${count === 1 ? "it reduces" : "they reduce"} the mean response.`
   );
 }
 
@@ -118,7 +118,7 @@ export function gapFigure(tuning) {
   return lineFigure({
     name: "gap",
     title: "Gap by rounds",
-    caption: "What is exactly zero is not drawn on the logarithmic scale.",
+    caption: "Exact zeros are not drawn on the logarithmic scale.",
     x: roundAxis(x),
     y: { label: "relative gap", unit: "1", type: "log" },
     lines,
@@ -162,7 +162,7 @@ export function startsFigure(tuning) {
     y = group.values("start_objective");
   return lineFigure({
     name: "starts",
-    title: "What each start found",
+    title: "Result of each start",
     caption: `The best is start ${group.number("best_start")}, counted from 0.`,
     x: { label: "start", unit: "1", tickFormat: "d", ticks: whole(x.length).map((i) => x[i - 1]) },
     y: { label: objectiveLabel(tuning), unit },
@@ -173,10 +173,10 @@ export function startsFigure(tuning) {
 
 function frontCaption(outcomes) {
   const infeasible = outcomes.includes("infeasible")
-    ? " An infeasible point is the design that breaks the limits least, which does not keep that limit."
+    ? " An infeasible point is the design that breaks the limits least; it does not keep its limit."
     : "";
   return (
-    "Each point is tuned for itself. The line joins those that converged; where it is level the limit does not bind." +
+    "Each point is a tuning of its own. The line joins those that converged; where it is level, the limit does not bind." +
     infeasible
   );
 }

@@ -71,7 +71,7 @@ function peaksText({ peaks, kind, converged }) {
 }
 
 function weightText({ weight }) {
-  return weight ? " The response is multiplied by the study's weight, which is a figure of its own." : "";
+  return weight ? " The response is multiplied by the study's weight, which has its own figure." : "";
 }
 
 export function responseFigure(tuning) {
@@ -151,7 +151,7 @@ function steepText(parameter) {
   const steep = steepestPieces(parameter);
   if (Number.isNaN(steep)) return "";
   const most = `${numberText(parameter.maxSlope)} up or down`;
-  return `; as steep as it may be (${most}) at ${steep} of ${parameter.knots.length - 1} pieces`;
+  return `; as steep as allowed (${most}) on ${steep} of ${parameter.knots.length - 1} pieces`;
 }
 
 export function scheduleFigure({ band }, parameter, atBounds) {
@@ -221,7 +221,7 @@ export function columnFigure({ band }, { name, unit, values, range, lower, upper
       ends.length === 0
         ? ""
         : outside.length
-          ? "Places outside its range are marked."
+          ? "Points outside its range are marked."
           : "Within its range over the whole band.",
     x: { ...axisOf(band), tight: true },
     y: { label: words(name), unit },

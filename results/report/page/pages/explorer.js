@@ -217,7 +217,7 @@ export function explorerSections(record) {
     );
   }
   const hint =
-    "Point at the map to read it; click or tap to take a point for the curves (with Shift to keep the one before), " +
+    "Point at the map to read it; click or tap to select a point for the curves (with Shift to keep the previous one), " +
     "or move it with the arrow keys.";
   return [
     section(

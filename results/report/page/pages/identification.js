@@ -36,7 +36,7 @@ function estimateRow(estimate) {
 }
 
 function estimatesTable(estimates) {
-  const head = ["estimate", "value", "95 % interval", "standard error", "degrees of freedom", "what it is"];
+  const head = ["estimate", "value", "95 % interval", "standard error", "degrees of freedom", "meaning"];
   return table(head, estimates.map(estimateRow), { numeric: [1, 2, 3, 4] });
 }
 
@@ -49,7 +49,7 @@ function qualityTable(identification) {
     return [
       [
         words(record),
-        own.length === 1 ? words(own[0].quantity) : "all of it",
+        own.length === 1 ? words(own[0].quantity) : "all quantities",
         fitText(record, nrmse),
         own.length === 1 ? quantityText(residualRms(own[0]), own[0].measured.unit, 4) : "",
       ],
@@ -137,7 +137,7 @@ export function identificationParts(record) {
       ? [
           section(
             "First stage",
-            element("p", { class: "note" }, "What the fit started from."),
+            element("p", { class: "note" }, "Where the fit started."),
             estimatesTable(found.first),
           ),
         ]

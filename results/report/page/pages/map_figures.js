@@ -38,10 +38,10 @@ function mapNotes({ variable, scale }, hasBorders, contact) {
   const { low, high, hasGaps } = valueRange(variable);
   const isFloat = variable.kind === "float";
   return [
-    hasGaps ? "Grey: no number." : "",
+    hasGaps ? "Grey: no value." : "",
     isFloat && low === high ? `${numberText(low)} everywhere.` : "",
     isFloat && scale === "log" && low < leastOfLogarithm(variable)
-      ? "What is below the scale, zero too, has its lowest colour."
+      ? "Values below the scale, including zero, have its lowest colour."
       : "",
     hasBorders ? `Lines: borders between the regimes of ${words(contact)}, solved, not sampled.` : "",
   ];
@@ -136,7 +136,7 @@ export function budgetFigure(map, state) {
   });
   return {
     name: "damping_budget",
-    title: "Damping budget: who dissipates",
+    title: "Damping budget: which element dissipates",
     get caption() {
       const place = placeWithout(map, state, [state.curveAxis]);
       return [place, "blank where nothing is dissipated"].filter(Boolean).join("; ");

@@ -58,8 +58,8 @@ export function recordsTable(map, state, variables) {
   return element(
     "div",
     { id: "records" },
-    table(["quantity", "unit", "largest", "by the record", "mean", "deviation", "records"], rows, {
-      caption: "Of all records, in size, at the point below.",
+    table(["quantity", "unit", "largest", "for record", "mean", "deviation", "records"], rows, {
+      caption: "Over all records, absolute values, at the point below.",
       numeric: [2, 4, 5, 6],
     }),
   );

@@ -72,9 +72,9 @@ function tornadoBars(scatter, { quantity, index }) {
   const { name, unit } = quantity.variable;
   return barFigure({
     name: `tornado_${name}`,
-    title: sentence(`what one standard deviation of each parameter changes in ${words(name)}`),
+    title: sentence(`change of ${words(name)} by one standard deviation of each parameter`),
     caption: [
-      "To first order, at the mean of the samples; in brackets the share of the variance.",
+      "To first order at the mean of the samples; share of the variance in brackets.",
       placeText(scatter, { index }),
     ]
       .filter(Boolean)
@@ -135,7 +135,7 @@ function numbersTable(scatter, { index }) {
     "deviation",
     ...shares.map((share) => `${shareName(share)} quantile`),
   ];
-  return table(head, rows, { caption: "In brackets: 95 % interval." });
+  return table(head, rows, { caption: "95 % intervals in brackets." });
 }
 
 function sentences(scatter, { quantity, index }) {
@@ -157,7 +157,7 @@ function sentences(scatter, { quantity, index }) {
   const [first] = tornadoAt(scatter, quantity, index);
   if (first && Number.isFinite(first.share))
     found.push(
-      `To first order ${shareText(first.share)} of the variance is owed to ${symbolText(first.parameter)}.`,
+      `To first order ${shareText(first.share)} of the variance is due to ${symbolText(first.parameter)}.`,
     );
   return found.join(" ");
 }
@@ -167,7 +167,7 @@ function controlsOf(scatter, view, change) {
     { map } = scatter;
   const names = scatter.quantities.map(({ variable }) => [variable.name, words(variable.name)]);
   return [
-    choice("quantity that scatters", names, view.quantity.variable.name, (name) =>
+    choice("quantity shown", names, view.quantity.variable.name, (name) =>
       change({ quantity: scatter.quantities.find(({ variable }) => variable.name === name) }),
     ),
     wide.length > 1

@@ -52,7 +52,7 @@ function leftOut(record) {
     element(
       "p",
       { class: "note" },
-      `To include ${names[0].name}, say: `,
+      `To include ${names[0].name}, use: `,
       element("code", {}, `frahm report ${record.file} --quantities ${chosen}`),
       " or [report] quantities in the study.",
     ),

@@ -53,7 +53,7 @@ function boundsTable(tuning) {
   if (rows.length === 0) return [];
   return [
     note(
-      "Bounds that hold it: how the objective falls as the bound is moved outwards (to first order; of a schedule " +
+      "Bounds that hold the design: how the objective falls as the bound is moved outwards (to first order; for a schedule " +
         "the sum over its knots).",
     ),
     table(["parameter", "bound", "multiplier", "1 % of the range", "gives"], rows, { numeric: [2, 3, 4] }),
@@ -127,7 +127,7 @@ function schedulesTables({ parameters, band }) {
 function shareText({ converged }, { active, asHigh, share }) {
   if (!converged) return "not known";
   if (active) return `${numberText(100 * share, 4)} %`;
-  return asHigh ? "as high, holds nothing" : "not active";
+  return asHigh ? "as high, not active" : "not active";
 }
 
 function peaksTable(tuning) {
@@ -225,7 +225,7 @@ function factsTable(tuning) {
     ...(Number.isFinite(group.number("path_bound"))
       ? [
           [
-            "no schedule with these constants is lower than, as far as a grid shows",
+            "lower bound for every schedule with these constants, as far as a grid shows",
             quantityText(group.number("path_bound"), tuning.unit, 8),
           ],
         ]
@@ -279,8 +279,8 @@ function worstTable(tuning) {
 function roundsCaption(tuning) {
   const count = settlingRounds(tuning);
   if (count === 0) return "Rounds of the tuning.";
-  const last = count === 1 ? "The last presses" : `The last ${count} press`;
-  return `Rounds of the tuning. ${last} the mean response down with the worst peak held: "bound" is that mean there.`;
+  const last = count === 1 ? "The last reduces" : `The last ${count} reduce`;
+  return `Rounds of the tuning. ${last} the mean response with the worst peak fixed: there "bound" is that mean.`;
 }
 
 function roundsTable(tuning) {
@@ -389,7 +389,7 @@ export function tuningParts(record) {
       first ? [...figureCards([first], record, "wide"), ...figureCards(others, record)] : [],
     ),
     ...sectionOf("Trade-off", [...figureCards(frontFigures(tuning), record), frontTable(tuning)]),
-    ...sectionOf("What holds it", [
+    ...sectionOf("What holds the design", [
       ...peaksTable(tuning),
       ...boundsTable(tuning),
       ...limitsTable(tuning),

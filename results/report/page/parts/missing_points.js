@@ -9,7 +9,7 @@ export function missingPoints(record) {
   const add = (text) => notes.push(element("p", { class: "warning" }, text));
   if (provenance.missing_tiles)
     add(
-      `This is part of a map: ${provenance.missing_tiles} of its tiles were not computed. Their points are grey. frahm run, or frahm merge when all tasks are done, completes the file.`,
+      `This is part of a map: ${provenance.missing_tiles} of its tiles were not computed. Their points are grey. To complete the file, use frahm run, or frahm merge when all tasks are done.`,
     );
   const status = map.variable("status");
   const codes = new Map();
@@ -18,10 +18,10 @@ export function missingPoints(record) {
     [...codes].map(([code, count]) => [meaningOf(status, code) || "not_computed", count]),
   );
   const told = {
-    failed: "failed (no number; the reasons are below)",
+    failed: "failed (no value; the reasons are below)",
     unbounded: "have no bounded response (an undamped mode driven at resonance)",
     not_periodic:
-      "have no periodic response that was found (no number; what was searched stands in the reasons below)",
+      "have no periodic response that was found (no value; the reasons below say what was searched)",
     not_computed: "were not computed",
   };
   for (const [word, text] of Object.entries(told))
@@ -29,7 +29,7 @@ export function missingPoints(record) {
   const note = (text) => notes.push(element("p", { class: "note" }, text));
   if (counts.get("grazing"))
     note(
-      `${counts.get("grazing")} of ${map.points} points only just touch another regime (grazing): right responses, without a derivative.`,
+      `${counts.get("grazing")} of ${map.points} points only just touch another regime (grazing): their responses are right, but have no derivative.`,
     );
   if (counts.get("several"))
     note(
@@ -39,11 +39,11 @@ export function missingPoints(record) {
     (map.variable(name)?.values ?? []).reduce((count, value) => count + (value > 0 ? 1 : 0), 0);
   if (aboveZero("unsettled"))
     note(
-      `At ${aboveZero("unsettled")} of ${map.points} points some starts of the search came to no stable response: others may exist.${searched(provenance)}`,
+      `At ${aboveZero("unsettled")} of ${map.points} points some starts of the search reached no stable response: others may exist.${searched(provenance)}`,
     );
   if (aboveZero("continuum"))
     note(
-      `${aboveZero("continuum")} of ${map.points} points show one of a continuum of responses, as sliders of jenkins or iwan elements never slip there and may have other offsets: shown is the motion with z(T/2) = -z(0), else that of least energy. The error bound is of the one shown.`,
+      `${aboveZero("continuum")} of ${map.points} points show one of a continuum of responses, because sliders of jenkins or iwan elements never slip there and may have other offsets: the motion shown is the one with z(T/2) = -z(0), otherwise the one of least energy. The error bound is of the one shown.`,
     );
   return notes;
 }

@@ -44,7 +44,7 @@ export function pointTip(record, index, first, variables) {
 // The meaning of the regimes' names, if a regime is recorded.
 function regimeNote({ variables }) {
   return variables.some(({ name }) => name.endsWith("_regime"))
-    ? "Regimes, by the stops of finite length in a period: non stop, none; one stop, one or two; multi stop, " +
+    ? "Regimes, by the number of stops of finite length in a period: non stop, none; one stop, one or two; multi stop, " +
         "more; stuck, it never slides. "
     : "";
 }
@@ -70,13 +70,13 @@ export function pointCard(record, index, variables) {
       { class: "cards" },
       [rows.slice(0, half), rows.slice(half)]
         .filter((some) => some.length)
-        .map((some) => table(["quantity", "value", "unit", "what it is"], some, { numeric: [1] })),
+        .map((some) => table(["quantity", "value", "unit", "meaning"], some, { numeric: [1] })),
     ),
     element(
       "p",
       { class: "note" },
-      `${regimeNote(map)}${others ? `${others} more quantities are found by their names above the map. ` : ""}` +
-        "Values to six digits, the last uncertain by one. All of them, with residual, error bound and energy balance:",
+      `${regimeNote(map)}${others ? `Find ${others} more quantities by their names above the map. ` : ""}` +
+        "Values have six digits, the last uncertain by one. This command prints all of them, with residual, error bound and energy balance:",
     ),
     element("div", { class: "command" }, element("code", {}, command), copy),
   );

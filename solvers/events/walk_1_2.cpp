@@ -1,3 +1,0 @@
-#include "solvers/events/walk_bodies.hpp"
-
-template class frahm::periodic::Walk<1, 2>;

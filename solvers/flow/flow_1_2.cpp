@@ -1,5 +1,0 @@
-#include "solvers/flow/flow_bodies.hpp"
-#include "solvers/flow/linear_form.hpp"
-
-template class frahm::periodic::Flow<1, 2>;
-template class frahm::periodic::Forms<1, 2>;

@@ -1,3 +1,0 @@
-#include "solvers/orbits/shooting_bodies.hpp"
-
-template class frahm::periodic::Shooting<1, 2>;

@@ -1,3 +1,0 @@
-#include "solvers/quantities/gradient_bodies.hpp"
-
-template class frahm::periodic::Gradient<1, 2>;

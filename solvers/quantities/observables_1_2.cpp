@@ -1,8 +1,0 @@
-#include "solvers/quantities/observables.hpp"
-
-template class frahm::periodic::TracedOrbit<1, 2>;
-template class frahm::periodic::Integrals<1, 2>;
-template class frahm::periodic::StepRows<1, 2>;
-template class frahm::periodic::EnergyScreen<1, 2>;
-template class frahm::periodic::OrbitMeasurement<1, 2>;
-template class frahm::periodic::Observables<1, 2>;

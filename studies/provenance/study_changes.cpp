@@ -1,0 +1,134 @@
+#include "studies/provenance/study_changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <variant>
+
+#include "studies/provenance/document_changes.hpp"
+#include "studies/provenance/finished_file.hpp"
+#include "studies/provenance/provenance.hpp"
+#include "studies/provenance/stored_study.hpp"
+#include "studies/provenance/study_changes.hpp"
+#include "studies/reading/keys/repetition.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/toml_building.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+#include "studies/reading/text/toml_writing.hpp"
+
+namespace frahm::studies {
+namespace {
+
+bool is_on_axis(const Study& study, std::size_t parameter) {
+  if (study.tune() && study.tune()->band && study.tune()->band->parameter == parameter) return true;
+  return study.map() && std::ranges::any_of(study.map()->axes, [&](const ParameterAxis& axis) {
+           return axis.parameter == parameter;
+         });
+}
+
+// The study's text as a document, with the numbers that its parameters have in this run. Those on an axis are
+// left out: their values are that of the axis.
+TomlValue document_of(const Study& study) {
+  TomlValue document = with_repetitions(study.source, read_toml(study.source));
+  TomlEntry* parameters = entry_of(std::get<TomlTable>(document.content), "parameters");
+  if (!parameters || !parameters->value.as<TomlTable>()) return document;
+  TomlTable in_this_run;
+  for (TomlEntry& entry : std::get<TomlTable>(parameters->value.content)) {
+    const auto names = study.parameters.names();
+    const auto found = std::ranges::find(names, entry.key);
+    if (found == names.end()) continue;
+    const auto i = static_cast<std::size_t>(found - names.begin());
+    if (is_on_axis(study, i)) continue;
+    if (const auto* number = std::get_if<double>(&study.parameters.list[i].definition))
+      entry.value = toml_parameter(study, i, *number);
+    in_this_run.push_back(std::move(entry));
+  }
+  parameters->value.content = std::move(in_this_run);
+  return document;
+}
+
+// For two studies that are the same apart from rounding: the axes that have another unit, and other numbers.
+std::vector<std::string> changed_roundings(const Study& kept, const Study& now,
+                                           const TomlValue& kept_document, const TomlValue& document) {
+  std::vector<std::string> changes;
+  const bool have_axes = kept.map() && now.map() && kept.map()->axes.size() == now.map()->axes.size();
+  for (std::size_t a = 0; have_axes && a < now.map()->axes.size(); ++a) {
+    const ParameterAxis &before = kept.map()->axes[a], &after = now.map()->axes[a];
+    if (before.unit == after.unit || before.si_values == after.si_values) continue;
+    changes.push_back(
+        change_of_unit(fmt::format("axis \"{}\": its unit", now.parameters.list[after.parameter].name),
+                       before.unit.empty() ? "SI" : before.unit, after.unit.empty() ? "SI" : after.unit));
+  }
+  for (std::string& change : rounding_changes(kept_document, document))
+    if (!change.starts_with("axis ")) changes.push_back(std::move(change));
+  return changes;
+}
+
+// None where the studies say the same.
+std::vector<std::string> changes_between(const Study& kept, const Study& now) {
+  if (kept.kind() != now.kind())
+    return {fmt::format("kind: \"{}\", now \"{}\"", kind_name(kept.kind()), kind_name(now.kind()))};
+  const TomlValue kept_document = document_of(kept), document = document_of(now);
+  const std::vector<std::string> changes = document_changes(kept_document, document);
+  return changes.empty() ? changed_roundings(kept, now, kept_document, document) : changes;
+}
+
+constexpr const char* nothing_found =
+    "nothing in the study itself: the content of a file that it reads, or what this version of frahm "
+    "computes";
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// The courses of two branches, or that one of two results is a branch.
+std::vector<std::string> changes_of_branch(const results::MapReader& result, const StudyPlan& now) {
+  const ResultKind kind = kind_of(result);
+  const bool is_branch = !now.course.empty();
+  if (kind == ResultKind::branch && !is_branch)
+    return {fmt::format("a branch, now {}", kind_noun(now.study.kind()))};
+  if (kind == ResultKind::map && is_branch) return {"a sweep, now a branch"};
+  std::vector<std::string> changes;
+  const std::vector<std::string> before = lines_of(provenance_text(result, branch_course_text)),
+                                 after = lines_of(now.course);
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+    if (before[i] != after[i]) changes.push_back(fmt::format("{}, now {}", before[i], after[i]));
+  return changes;
+}
+
+}  // namespace
+
+std::vector<std::string> study_changes(const Study& kept, const Study& now) {
+  std::vector<std::string> changes = changes_between(kept, now);
+  if (changes.empty()) changes.emplace_back(nothing_found);
+  return changes;
+}
+
+std::vector<std::string> changes_since(const results::MapReader& result, const std::filesystem::path& file,
+                                       const StudyPlan& now) {
+  std::vector<std::string> changes = changes_of_branch(result, now);
+  try {
+    for (std::string& change : changes_between(read_stored_study(result, file).study, now.study))
+      changes.push_back(std::move(change));
+  } catch (const StudyError&) {  // its tables may be gone, or it was written by another version
+    return changes;
+  }
+  if (changes.empty()) changes.emplace_back(nothing_found);
+  return changes;
+}
+
+OtherWords other_words(const results::MapReader& result, const std::filesystem::path& file,
+                       const StudyPlan& now) {
+  const bool is_the_same = provenance_text(result, "study") == now.study.source.text &&
+                           provenance_text(result, "overrides") == overrides_text(now.set);
+  if (is_the_same) return {};
+  OtherWords words{.kept = read_stored_study(result, file).study, .changes = {}};
+  words.changes = word_changes(document_of(*words.kept), document_of(now.study));
+  return words;
+}
+
+}  // namespace frahm::studies

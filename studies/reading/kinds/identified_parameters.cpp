@@ -1,0 +1,193 @@
+#include "studies/reading/kinds/identified_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/kinds/identify_reading.hpp"
+#include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/parameter_reading.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_values.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using Method = IdentifyMethod;
+
+// The estimates of each method that a parameter of a system can take.
+std::vector<std::string> estimates_of(const IdentifyChoice& choice) {
+  const bool is_known = choice.mass || choice.stiffness;
+  const bool is_curve = choice.records.front().find("amplitude") != nullptr;  // not a table of answers by row
+  std::vector<std::string> names;
+  const auto add = [&](std::initializer_list<const char*> more) {
+    names.insert(names.end(), more.begin(), more.end());
+  };
+  switch (choice.method) {
+    case Method::half_power:
+      if (is_curve)
+        add({"damping_ratio", "damping_ratio_first_order", "peak_frequency", "natural_frequency",
+             "lower_frequency", "upper_frequency"});
+      break;
+    case Method::resonance_magnification:
+      add({"damping_ratio", "damping_ratio_first_order"});
+      if (is_curve) add({"peak_frequency", "peak_amplitude"});
+      break;
+    case Method::log_decrement:
+      add({"log_decrement", "damping_ratio", "damping_ratio_first_order", "damped_frequency",
+           "natural_frequency", "log_decrement_over_cycles", "damping_ratio_over_cycles",
+           "damping_ratio_first_order_over_cycles"});
+      break;
+    case Method::free_decay:
+      add({"damping_ratio", "friction_displacement", "natural_frequency", "damped_frequency",
+           "damping_ratio_first", "friction_displacement_first"});
+      if (choice.sensor_offset) add({"offset"});
+      if (is_known) add({"damping", "friction_force", choice.mass ? "stiffness" : "mass"});
+      break;
+    case Method::forced_resonance:
+      add({"slope", "intercept", "damping_ratio_line", "friction_displacement_line", "damping_ratio",
+           "friction_displacement"});
+      if (choice.mass && choice.stiffness) add({"damping", "damping_line"});
+      if (choice.stiffness) add({"friction_force", "friction_force_line"});
+      break;
+    case Method::energy_balance:
+      add({"damping", "friction_force"});
+      break;
+    case Method::hysteresis_loop:
+      add({"energy_loss", "amplitude", "frequency", "storage_stiffness", "loss_factor", "equivalent_damping",
+           "equivalent_friction"});
+      break;
+    case Method::added_mass:
+      add({"mass", "stiffness"});
+      break;
+    case Method::grey_box:
+      break;
+  }
+  return names;
+}
+
+bool reads(const Study& study, const StudyValue& value, std::size_t parameter) {
+  const auto inputs = study.parameters.inputs_of(value.expression.reads());
+  return std::find(inputs.begin(), inputs.end(), parameter) != inputs.end();
+}
+
+// Whether the network or its initial values depend on a parameter.
+bool system_depends_on(const Study& study, std::size_t parameter) {
+  if (reads(study, study.values.omega, parameter)) return true;
+  for (const auto* list : study.values.lists()) {
+    for (const StudyValue& value : *list) {
+      if (reads(study, value, parameter)) return true;
+    }
+  }
+  const auto of_factors = study.parameters.inputs_of(study.values.read_by_factors());
+  if (std::ranges::find(of_factors, parameter) != of_factors.end()) return true;  // refused by direction_of()
+  return std::ranges::any_of(study.initial(), [&](const InitialValues& of_mass) {
+    return reads(study, of_mass.displacement, parameter) || reads(study, of_mass.velocity, parameter);
+  });
+}
+
+std::size_t read_parameter(const IdentifyReading& reading, const TomlSection& section) {
+  const Parameters& parameters = reading.study.parameters;
+  const std::string name = section.text("parameter");
+  const auto index = parameters.find(name);
+  if (!index)
+    section.fail(rules::unknown_name, "parameter", "no parameter is called \"{}\"{}", name,
+                 suggestion(name, parameters.names()));
+  if (!parameters.list[*index].is_number())
+    section.fail(rules::computed_parameter, "parameter",
+                 "\"{}\" is computed from other parameters; only one that is a number can be identified",
+                 name);
+  for (const IdentifiedParameter& other : reading.choice.parameters) {
+    if (other.parameter == *index)
+      section.fail(rules::given_twice, "parameter", "\"{}\" is already identified (line {})", name,
+                   other.position.line);
+  }
+  if (!system_depends_on(reading.study, *index))
+    section.fail(rules::wrong_dependence, "parameter",
+                 "no value of the system or of its start depends on \"{}\"", name);
+  return *index;
+}
+
+UsualUnit read_usual_unit(IdentifyReading& reading, const TomlSection& section, std::size_t parameter) {
+  if (reading.study.dimensionless) {
+    if (const TomlValue* unit = section.find("unit")) read_unit(reading.context, section.where(), *unit);
+    return {"1", 1.0};
+  }
+  Parameter& definition = reading.study.parameters.list[parameter];
+  UsualUnit usual = usual_unit(reading.study, parameter);
+  if (const TomlValue* value = section.find("unit")) {
+    const auto unit = read_unit(reading.context, section.where(), *value);
+    try {
+      usual = {unit->text, si_factor(definition, *unit)};
+      definition.unit_of_range = unit;
+    } catch (const UnitError& error) {
+      section.fail(error.rule(), "unit", "{}", error.what());
+    }
+  }
+  if (usual.text.empty() && definition.quantity) usual.text = si_unit(*definition.quantity);
+  return usual;
+}
+
+// Whether a network value that may not be negative is this parameter.
+bool cannot_be_negative(const Study& study, std::size_t parameter) {
+  for (const auto* list : study.values.lists()) {
+    for (const StudyValue& value : *list) {
+      if (value.range != Range::finite && value.expression.sole_parameter() == parameter) return true;
+    }
+  }
+  return false;
+}
+
+void read_bounds(const Study& study, const TomlSection& section, IdentifiedParameter& fitted) {
+  const double factor = fitted.unit.si_factor;
+  if (cannot_be_negative(study, fitted.parameter)) fitted.lower = 0.0;
+  if (section.find("lower")) fitted.lower = section.number("lower") * factor;
+  if (section.find("upper")) fitted.upper = section.number("upper") * factor;
+  if (!(fitted.lower < fitted.upper))
+    section.fail(rules::wrong_order, "upper",
+                 "{} is not above \"lower\" = {}; the upper bound must be above the lower",
+                 section.number("upper"), fitted.lower / factor);
+  const double start = std::get<double>(study.parameters.list[fitted.parameter].definition);
+  if (start >= fitted.lower && start <= fitted.upper) return;
+  section.fail(rules::out_of_range, start < fitted.lower ? "lower" : "upper",
+               "the fit starts from {:.6g} of [parameters], outside its bounds {:.6g} to {:.6g}{}{}",
+               start / factor, fitted.lower / factor, fitted.upper / factor,
+               fitted.unit.text.empty() ? "" : " ", fitted.unit.text);
+}
+
+// Reads a formula's estimate for a parameter.
+void read_estimate(const IdentifyReading& reading, const TomlSection& section, IdentifiedParameter& taken) {
+  const std::string method = method_name(reading.choice.method);
+  section.keep_to(method);
+  const std::vector<std::string> known = estimates_of(reading.choice);
+  taken.estimate = section.text("estimate");
+  if (reading.data == DataFiles::leave) return;  // the estimates depend on the data
+  if (std::find(known.begin(), known.end(), taken.estimate) == known.end())
+    section.fail(
+        rules::unknown_name, "estimate",
+        "the method \"{}\" gives no estimate \"{}\" with what [identify] states{}", method, taken.estimate,
+        known.empty() ? ", as each row of its table has its own answer" : suggestion(taken.estimate, known));
+}
+
+}  // namespace
+
+void read_identified_parameters(IdentifyReading& reading, const TomlSection& section) {
+  IdentifiedParameter identified;
+  identified.position = section.position();
+  identified.parameter = read_parameter(reading, section);
+  identified.unit = read_usual_unit(reading, section, identified.parameter);
+  if (reading.choice.method == Method::grey_box) {
+    if (section.find("estimate"))
+      section.fail(rules::key_without_use, "estimate",
+                   "a grey box estimates the parameters themselves; leave out this key");
+    read_bounds(reading.study, section, identified);
+    identified.each_record = section.boolean_or("each_record", false);
+  } else {
+    read_estimate(reading, section, identified);
+  }
+  reading.choice.parameters.push_back(std::move(identified));
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "solvers/mechanics/element_table.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/system/network_reading.hpp"
+
+namespace frahm::studies {
+
+// The law of a coulomb element; exact of every other. Refuses keys of other laws.
+mechanics::FrictionLaw read_law(const TomlSection& section, const mechanics::ElementKind& kind);
+// Refuses a contact beside others of which some are followed exactly and some are smooth.
+void check_one_law(const NetworkReading& reading, const TomlSection& section,
+                   const mechanics::ElementKind& kind, mechanics::FrictionLaw law);
+
+}  // namespace frahm::studies

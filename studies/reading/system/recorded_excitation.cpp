@@ -1,0 +1,124 @@
+#include "studies/reading/system/recorded_excitation.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "solvers/mechanics/rotation.hpp"
+#include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/study/study.hpp"
+#include "studies/reading/study/study_context.hpp"
+#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/text/toml_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using mechanics::ExcitationKind;
+using mechanics::NodeKind;
+using transient::RecordOf;
+
+const std::string record_path = "excitation.record";
+
+struct PlaceKey {
+  const char* key;
+  RecordOf of;
+};
+constexpr std::array place_keys{
+    PlaceKey{"acceleration_of", RecordOf::acceleration}, PlaceKey{"velocity_of", RecordOf::velocity},
+    PlaceKey{"displacement_of", RecordOf::displacement}, PlaceKey{"force_on", RecordOf::force}};
+
+std::string why_no_record(StudyKind kind) {
+  if (kind == StudyKind::identify) return "its measured excitations are columns of [[identify.record]]";
+  return fmt::format(
+      "{} needs periodic responses, but a record does not repeat; use it with kind = \"transient\" or "
+      "\"tune\"",
+      kind_noun(kind));
+}
+
+mechanics::Node driven_mass(const NetworkReading& reading, const TomlSection& section,
+                            const RecordedPlace& place) {
+  const auto& network = reading.result.network;
+  const auto node = find_node(network, place.node);
+  if (!node)
+    section.fail(rules::unknown_name, place.key, "no mass is called \"{}\"{}", place.node,
+                 suggestion(place.node, network.masses));
+  if (node->kind != NodeKind::mass)
+    section.fail(rules::wrong_node, place.key, "a force must act on a mass, but \"{}\" is {}", place.node,
+                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
+  return *node;
+}
+
+}  // namespace
+
+std::vector<TomlSection> record_sections(const StudySource& source, const TomlValue& excitation) {
+  std::vector<TomlSection> sections;
+  std::size_t number = 0;
+  for (const TomlValue* table : read_tables(source, excitation, record_path)) {
+    ++number;
+    std::string where = fmt::format("[[{}]] {}", record_path, number);
+    for (const PlaceKey& each : place_keys) {
+      if (find_entry(*table, each.key))
+        where = label(*table, each.of == RecordOf::force ? "record of a force on" : "record of", each.key,
+                      record_path, number);
+    }
+    sections.emplace_back(source, *table, std::move(where), record_path);
+  }
+  return sections;
+}
+
+RecordedPlace place_of(const TomlSection& section) {
+  RecordedPlace place;
+  for (const PlaceKey& each : place_keys) {
+    if (!section.find(each.key)) continue;
+    if (!place.key.empty())
+      section.fail(rules::one_of_two_keys, each.key,
+                   "it is already given as \"{}\"; a record drives only one", place.key);
+    place = {each.key, section.text(each.key), each.of};
+  }
+  if (place.key.empty())
+    section.fail_here(rules::missing_key,
+                      "what it drives is missing: give acceleration_of, velocity_of or displacement_of a "
+                      "support, or force_on a mass");
+  return place;
+}
+
+Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& network) {
+  switch (place.of) {
+    case RecordOf::acceleration:
+      return Quantity::acceleration;
+    case RecordOf::velocity:
+      return Quantity::speed;
+    case RecordOf::displacement:
+      return Quantity::length;
+    case RecordOf::force:
+      break;
+  }
+  const auto node = find_node(network, place.node);
+  return mechanics::rotates(network, node->index) ? Quantity::torque : Quantity::force;
+}
+
+void refuse_records(const StudyContext& context, const TomlValue& excitation, StudyKind kind) {
+  if (has(study_key("excitation", "record"), kind_name(kind))) return;
+  if (const TomlEntry* entry = find_entry(excitation, "record"))
+    throw context.source.error_at(rules::other_kind, entry->position, "[[{}]] is not part of {}: {}",
+                                  record_path, kind_noun(kind), why_no_record(kind));
+}
+
+void read_recorded_components(NetworkReading& reading, const TomlValue& excitation) {
+  auto& [network, values] = reading.result;
+  for (const TomlSection& section : record_sections(reading.context.source, excitation)) {
+    const RecordedPlace place = place_of(section);
+    const bool is_force = place.of == RecordOf::force;
+    const mechanics::Node node =
+        is_force ? driven_mass(reading, section, place) : *find_node(network, place.node);
+    network.excitations.push_back(
+        {is_force ? ExcitationKind::recorded_force : ExcitationKind::recorded_motion, node.index, 0});
+    values.amplitude.push_back(read_value(reading, section, "scale", Quantity::number, 1.0));
+    values.phase.push_back({});
+    values.rod.push_back({});
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <string_view>
+
+namespace frahm::studies {
+
+// A rule that a study, its data or a command line can break. Its key is stable: messages are reworded, keys
+// are not. Tests of refusals name the key, the position and the offending name.
+struct Rule {
+  std::string_view key;
+
+  friend bool operator==(const Rule&, const Rule&) = default;
+};
+
+namespace rules {
+
+// The text.
+inline constexpr Rule not_text{"not_text"};  // control characters, an open quote
+inline constexpr Rule not_toml{"not_toml"};
+inline constexpr Rule too_large{"too_large"};  // the text, its nesting, a grid, a count of contacts
+
+// Sections and keys.
+inline constexpr Rule unknown_section{"unknown_section"};
+inline constexpr Rule missing_section{"missing_section"};
+inline constexpr Rule other_kind{"other_kind"};  // belongs to another kind of study
+inline constexpr Rule unknown_key{"unknown_key"};
+inline constexpr Rule missing_key{"missing_key"};
+inline constexpr Rule one_of_two_keys{"one_of_two_keys"};  // one is needed, or they exclude each other
+inline constexpr Rule key_without_use{"key_without_use"};  // without effect with the other choices
+
+// Values.
+inline constexpr Rule wrong_type{"wrong_type"};
+inline constexpr Rule empty{"empty"};
+inline constexpr Rule not_a_name{"not_a_name"};
+inline constexpr Rule not_a_choice{"not_a_choice"};  // not one of the words that a key allows
+inline constexpr Rule not_finite{"not_finite"};
+inline constexpr Rule out_of_range{"out_of_range"};
+inline constexpr Rule wrong_order{"wrong_order"};    // bounds, bands, knots and rows that do not rise
+inline constexpr Rule wrong_length{"wrong_length"};  // of lists that belong together
+
+// Names.
+inline constexpr Rule unknown_name{"unknown_name"};
+inline constexpr Rule name_taken{"name_taken"};
+inline constexpr Rule given_twice{"given_twice"};
+inline constexpr Rule computed_parameter{"computed_parameter"};  // where a number is needed
+inline constexpr Rule wrong_dependence{"wrong_dependence"};      // of a value on a parameter, or none
+
+// Units and expressions.
+inline constexpr Rule unknown_unit{"unknown_unit"};
+inline constexpr Rule wrong_dimension{"wrong_dimension"};
+inline constexpr Rule missing_unit{"missing_unit"};
+inline constexpr Rule ambiguous_unit{"ambiguous_unit"};  // radians or cycles
+inline constexpr Rule two_units{"two_units"};            // of one thing
+inline constexpr Rule unit_in_dimensionless{"unit_in_dimensionless"};
+inline constexpr Rule wrong_expression{"wrong_expression"};
+inline constexpr Rule circular_definition{"circular_definition"};
+
+// The system and the requested results.
+inline constexpr Rule floating_mass{"floating_mass"};
+inline constexpr Rule wrong_node{"wrong_node"};
+inline constexpr Rule wrong_matrix{"wrong_matrix"};            // not square, symmetric or definite
+inline constexpr Rule wrong_law{"wrong_law"};                  // friction laws that do not go together
+inline constexpr Rule no_contact{"no_contact"};                // where friction is asked for
+inline constexpr Rule several_responses{"several_responses"};  // may exist where there must be one
+inline constexpr Rule unfit_quantity{"unfit_quantity"};
+inline constexpr Rule unfit_axis{"unfit_axis"};
+inline constexpr Rule unfit_for_method{"unfit_for_method"};
+
+// Data and earlier results.
+inline constexpr Rule unreadable_file{"unreadable_file"};
+inline constexpr Rule wrong_file{"wrong_file"};  // of another kind than needed
+inline constexpr Rule no_header{"no_header"};
+inline constexpr Rule unknown_column{"unknown_column"};
+inline constexpr Rule wrong_row{"wrong_row"};
+inline constexpr Rule doubtful_row{"doubtful_row"};  // where every row is needed
+inline constexpr Rule too_few{"too_few"};            // rows
+
+// The program.
+inline constexpr Rule wrong_option{"wrong_option"};
+inline constexpr Rule not_installed{"not_installed"};
+inline constexpr Rule not_computed{"not_computed"};  // the text is valid, but there is no result
+
+}  // namespace rules
+}  // namespace frahm::studies
