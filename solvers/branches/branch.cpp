@@ -46,6 +46,8 @@ const char* end_name(BranchEnd end) {
       return "rule";
     case BranchEnd::lost:
       return "lost";
+    case BranchEnd::unbounded:
+      return "unbounded";
   }
   return "";
 }
@@ -68,6 +70,8 @@ const char* end_sentence(BranchEnd end) {
       return "beyond, a value breaks a rule";
     case BranchEnd::lost:
       return "no neighbouring orbit was found to continue it";
+    case BranchEnd::unbounded:
+      return "the response grows without bound";
   }
   return "";
 }

@@ -63,6 +63,7 @@ enum class BranchEnd {
   joined,  // it goes on as a branch that was followed before
   rule,    // beyond it the values break a rule
   lost,
+  unbounded,  // towards an undamped resonance
 };
 const char* end_name(BranchEnd end);  // "range"
 const char* end_sentence(BranchEnd end);

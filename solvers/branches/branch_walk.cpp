@@ -16,6 +16,7 @@ struct StepLimits {
   double most_angle = 0.15;  // between the tangents of neighbours [rad], that a curve is drawn smoothly
   double most_shift = 0.3;   // of a step: how far Newton's method may move its end
   double corner = 1e-5;      // from a corner, the first place beyond
+  double most_size = 1e9;    // of a state whose energy is that of the start: what is larger has no bound
 };
 
 // Follows a branch one way.
@@ -46,6 +47,7 @@ class BranchWalk {
       const bool closes = points > kLeastLoop && passes(first_, *next);
       if (closes) return accept(first_), BranchEnd::closed;
       if (!accept(*next)) return BranchEnd::joined;
+      if (here_.y.norm() > limits_.most_size) return BranchEnd::unbounded;
       if (here_.section_is_near_event) move_section();
     }
     return BranchEnd::points;

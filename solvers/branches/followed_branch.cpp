@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "solvers/branches/branch_walk.hpp"
-#include "solvers/orbits/certificate.hpp"
-#include "solvers/orbits/shooting.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -52,10 +50,10 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
     observables_.fill_missing(Status::failed, 0, point.quantities);
     return point;
   }
-  AnyOrbit orbit = map_.orbit(y, std::move(shot));
+  const AnyOrbit orbit = map_.orbit(y, std::move(shot));
   observables_.forget();
   observables_.set_system(map_.system());
-  if (!observables_.is_balanced(orbit, map_.system()) && !balances_later(orbit)) {
+  if (!observables_.is_balanced(orbit, map_.system())) {
     observables_.fill_missing(Status::failed, 0, point.quantities);
     return point;
   }
@@ -65,30 +63,6 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   point.multiple = orbit.multiple;
   point.residual = orbit.residual;
   return point;
-}
-
-// An event next to the section may be missed at one end of the orbit and met at the other, which its energies
-// show. The orbit is then found once more at a section a little later.
-bool FollowedBranch::balances_later(AnyOrbit& orbit) {
-  constexpr double kLater[] = {0.7, 1.9, 2.5};  // [rad]
-  constexpr double kSame = 1e-2;  // of its size: towards a resonance a missed event moves it so far
-  for (const double later : kLater) {
-    AnyOrbit again = orbit;
-    Walk<kAnySize, kAnySize>(map_.flow())
-        .pass(orbit.z, orbit.section, later / map_.flow().fundamental_rate(), again.passage, Tangent::none);
-    if (again.passage.failure != nullptr) continue;
-    const Eigen::VectorXd start = again.z = again.passage.end;
-    again.section = std::fmod(orbit.section + later, 2.0 * std::numbers::pi);
-    Shooting<kAnySize, kAnySize>(map_.flow()).find(again);
-    const double moved = map_.flow().equations().energy_norm(again.z - start);
-    if (!again.is_found() || moved > kSame * map_.flow().energy_scale(start)) continue;
-    judge_stability(map_.flow(), again);
-    observables_.forget();
-    if (!observables_.is_balanced(again, map_.system())) continue;
-    orbit = std::move(again);
-    return true;
-  }
-  return false;
 }
 
 bool FollowedBranch::is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known) {

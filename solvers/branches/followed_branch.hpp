@@ -51,7 +51,6 @@ class FollowedBranch {
   };
 
   BranchPoint tell(const Eigen::VectorXd& y);
-  bool balances_later(AnyOrbit& orbit);
   // sign: of the arclength.
   OneWay follow_way(const BranchPlace& first, bool stable, double sign, const IsKnown& is_known,
                     const BranchProgress& progress);

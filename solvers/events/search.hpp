@@ -105,15 +105,25 @@ double first_stop(const Flow<N, H>& flow, Eigen::Index j, ValueAndSlope left, Va
   return first_crossing(polynomial(), scale, w);
 }
 
-// The room of a force that starts at its limit: the first coefficient that is not rounding decides. Negative:
-// the contact lets go at once. Otherwise the root at the start is divided out. is_state: the force is an
-// internal one, which stays at its limit while others hold the contact.
+// How fast the force of contact j that is a state may seem to change at rest [N a step]: its spring times the
+// rounding of the velocity. 0: its force is none.
 template <int N, int H>
-double fall_from_limit(const Polynomial& room, double limit, bool is_state, Workspace<N, H>& w) {
+double rate_at_rest(const Flow<N, H>& flow, Eigen::Index j, const Workspace<N, H>& w) {
+  const StepEquations<N, H>& eq = flow.equations();
+  if (eq.holds(j)) return 0.0;
+  return eq.internal_stiffness[eq.internal_of[static_cast<std::size_t>(j)]] * w.rest_speed[j];
+}
+
+// The room of a force that starts at its limit: the first coefficient that is not rounding decides. Negative:
+// the contact lets go at once. Otherwise the root at the start is divided out. A force that is a state stays
+// at its limit while others hold the contact. rate: rate_at_rest.
+template <int N, int H>
+double fall_from_limit(const Polynomial& room, double limit, double rate, Workspace<N, H>& w) {
+  const bool is_state = rate > 0.0;
   if (is_state && room.cwiseAbs().sum() <= kTerms * kTie * limit) return kNoEvent;
   if (room[0] < -4.0 * kTie * limit) return 0.0;  // beyond the limit, as in a loop of contacts
-  int multiplicity = 1;
-  while (multiplicity < 4 && std::abs(room[multiplicity]) <= kTie * limit) ++multiplicity;
+  int multiplicity = std::abs(room[1]) <= std::max(kTie * limit, rate) ? 2 : 1;
+  while (multiplicity > 1 && multiplicity < 4 && std::abs(room[multiplicity]) <= kTie * limit) ++multiplicity;
   const Polynomial rest = deflate(room, multiplicity);
   if (rest[0] >= 0.0) return first_lasting_fall(rest, limit, w);
   // A force whose room falls by less than a tie over the step, and rises again, only touches its limit.
@@ -137,9 +147,8 @@ double first_release(const Flow<N, H>& flow, Eigen::Index j, ValueAndSlope left,
     Polynomial room = -side * force;
     room[0] += limit;
     const bool at_limit = room[0] <= kTie * limit;
-    const bool is_state = !flow.equations().holds(j);
-    first = std::min(
-        first, at_limit ? fall_from_limit(room, limit, is_state, w) : first_lasting_fall(room, limit, w));
+    first = std::min(first, at_limit ? fall_from_limit(room, limit, rate_at_rest(flow, j, w), w)
+                                     : first_lasting_fall(room, limit, w));
   }
   return first;
 }
@@ -158,7 +167,7 @@ double first_share(const Flow<N, H>& flow, Eigen::Index j, ValueAndSlope left, V
   const double margin = w.margin;
   Polynomial excess = side * guard_polynomial(flow, j, w);
   excess[0] -= limit;
-  const double first = excess[0] <= kTie * limit ? fall_from_limit(excess, limit, false, w)
+  const double first = excess[0] <= kTie * limit ? fall_from_limit(excess, limit, 0.0, w)
                                                  : first_lasting_fall(excess, limit, w);
   w.margin = margin;
   return first;
