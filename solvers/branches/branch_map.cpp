@@ -179,11 +179,11 @@ Eigen::VectorXd BranchMap::moved(const Eigen::VectorXd& y, double section) {
   return there;
 }
 
-Eigen::VectorXd BranchMap::half_way(const Eigen::VectorXd& y) {
+Eigen::VectorXd BranchMap::gap_after(int part, const Eigen::VectorXd& y) {
   set(parameter(y));
   AnyPassage passage;
   const Eigen::VectorXd z = state(y);
-  walk_.pass(z, section_, 0.5 * length(), passage, Tangent::none);
+  walk_.pass(z, section_, length() / part, passage, Tangent::none);
   if (passage.failure != nullptr) return {};
   const Eigen::Index n = flow_.equations().masses();
   Eigen::VectorXd gap = passage.end - z;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "solvers/branches/doubling_origin.hpp"
 
@@ -26,7 +29,9 @@ class BranchWalk {
       : map_(map), wanted_(wanted), found_(found) {}
 
   BranchEnd follow(const BranchPlace& first) {
-    here_ = first_ = first;
+    here_ = first;
+    firsts_ = {first};
+    add_later_firsts();
     passed_ = {here_.y};
     step_ = limits_.first;
     if (leaves_range(here_.y, here_.tangent)) return BranchEnd::range;
@@ -44,8 +49,10 @@ class BranchWalk {
       const double p = next->y[next->y.size() - 1];
       if (p <= 0.0 || p >= 1.0) return accept(*next), BranchEnd::range;
       ++points;
-      const bool closes = points > kLeastLoop && passes(first_, *next);
-      if (closes) return accept(first_), BranchEnd::closed;
+      if (points > kLeastLoop) {
+        for (const BranchPlace& each : firsts_)
+          if (passes(each, *next)) return accept(each), BranchEnd::closed;
+      }
       if (!accept(*next)) return BranchEnd::joined;
       if (here_.y.norm() > limits_.most_size) return BranchEnd::unbounded;
       if (here_.section_is_near_event) move_section();
@@ -73,13 +80,40 @@ class BranchWalk {
       across = Eigen::VectorXd::Unit(last + 1, last);
     }
     auto next = correct(map_, predicted, across, here_.tangent);
-    if (!next) return std::nullopt;
+    if (!next || takes_less_time(*next)) return std::nullopt;
     if (next->y[last] < 0.0 || next->y[last] > 1.0) return std::nullopt;
     if (across[last] == 1.0) next->y[last] = predicted[last];
     const double shift = (next->y - predicted).norm() / step_;
     const double angle = std::acos(std::clamp(here_.tangent.dot(next->tangent), -1.0, 1.0));
     const bool serves = angle <= limits_.most_angle && shift <= limits_.most_shift;
     return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
+  }
+
+  // Whether the orbit of a place is one of a divisor of the multiple: on another branch, which crosses this one
+  // or from which it comes.
+  bool takes_less_time(const BranchPlace& place) const {
+    constexpr double kSame = 1e-9;
+    for (int part = 2; part <= map_.multiple(); ++part) {
+      if (map_.multiple() % part != 0) continue;
+      const Eigen::VectorXd gap = map_.gap_after(part, place.y);
+      if (gap.size() > 0 && gap.norm() < kSame * std::max(1.0, place.y.norm())) return true;
+    }
+    return false;
+  }
+
+  // The same orbit as at the first place, seen each period of the excitation later: the branch may close there.
+  void add_later_firsts() {
+    const double turn = 2.0 * std::numbers::pi;
+    const BranchPlace first = firsts_.front();
+    const Eigen::VectorXd along = Eigen::VectorXd::Unit(first.y.size(), first.y.size() - 1);
+    firsts_.resize(1);
+    for (int later = 1; later < map_.multiple(); ++later) {
+      const double there = std::fmod(map_.section() + turn * later / map_.multiple(), turn);
+      const Eigen::VectorXd y = map_.moved(first.y, there);
+      if (y.size() == 0) continue;
+      if (auto place = correct(map_, y, along, first.parameter_rate() * along))
+        firsts_.push_back(std::move(*place));
+    }
   }
 
   // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side
@@ -183,7 +217,7 @@ class BranchWalk {
     if (passed_.size() < 2) return;
     const double to = here_.better_section;
     const Eigen::VectorXd before = map_.moved(passed_[passed_.size() - 2], to),
-                          first = map_.moved(first_.y, to);
+                          first = map_.moved(firsts_.front().y, to);
     const Eigen::VectorXd now = map_.moved(here_.y, to);
     if (before.size() == 0 || first.size() == 0 || now.size() == 0) return;
     const double from = map_.section();
@@ -191,10 +225,11 @@ class BranchWalk {
     const Eigen::VectorXd chord = (now - before).normalized();
     const Eigen::VectorXd along = Eigen::VectorXd::Unit(now.size(), now.size() - 1);
     const auto place = correct(map_, now, chord, chord);
-    const auto start = correct(map_, first, along, first_.parameter_rate() * along);
+    const auto start = correct(map_, first, along, firsts_.front().parameter_rate() * along);
     if (!place || !start) return map_.set_section(from);
     here_ = *place;
-    first_ = *start;
+    firsts_ = {*start};
+    add_later_firsts();
     passed_ = {before, here_.y};
   }
 
@@ -202,7 +237,8 @@ class BranchWalk {
   const BranchWanted& wanted_;
   const FoundOnBranch& found_;
   StepLimits limits_;
-  BranchPlace here_, first_;
+  BranchPlace here_;
+  std::vector<BranchPlace> firsts_;      // the first place, then those of add_later_firsts
   std::vector<Eigen::VectorXd> passed_;  // the last one is here
   double step_ = 0.0;
 };

@@ -60,11 +60,11 @@ std::optional<SpecialPlace> solved_as_shorter(BranchMap& map, const BranchPlace&
 std::optional<SpecialPlace> origin_of_doubling(BranchMap& map, const BranchPlace& from,
                                                const BranchPlace& to) {
   if (map.multiple() % 2 != 0) return std::nullopt;
-  const Eigen::VectorXd gap = map.half_way(from.y), gap_beyond = map.half_way(to.y);
+  const Eigen::VectorXd gap = map.gap_after(2, from.y), gap_beyond = map.gap_after(2, to.y);
   if (gap.size() == 0 || gap_beyond.size() == 0 || gap.dot(gap_beyond) >= 0.0) return std::nullopt;
   const Eigen::VectorXd direction = gap.normalized();
   const auto gap_along = [&](const BranchPlace& place) {
-    const Eigen::VectorXd there = map.half_way(place.y);
+    const Eigen::VectorXd there = map.gap_after(2, place.y);
     return there.size() == 0 ? 0.0 : direction.dot(there);
   };
   const BranchRoot found = root(PartOfBranch(map, from, to), gap_along);

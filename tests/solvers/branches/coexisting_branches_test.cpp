@@ -102,6 +102,11 @@ TEST_CASE("Every stable orbit that is found lies on one branch, subharmonics too
   const std::vector<Branch> branches = followed(before_a_stop, 1.0, 5.0, places(1.0, 5.0, 33));
   CHECK(branches.size() >= 2);
   CHECK(std::ranges::any_of(branches, [](const Branch& each) { return each.points.front().multiple > 1; }));
+  // A loop closes too where it comes back to its first orbit seen some periods later.
+  for (const Branch& branch : branches) {
+    CHECK(branch.first_end != BranchEnd::points);
+    CHECK(branch.last_end != BranchEnd::points);
+  }
   PeriodicResponse response(before_a_stop.network(), {{Measure::peak, 0}, {Measure::coexisting, 0}},
                             Path::fastest, {.starts = 16});
   for (const double r : {1.3, 1.9, 2.6, 3.2, 4.1, 4.9}) {
