@@ -49,11 +49,12 @@ class Search {
   }
 
   RestChoice choice() {
-    if (trials() <= kMostTrials)
+    if (ways() <= kMostTrials)
       try_all();
     else
       follow_active_set();
     best_.choice.margin = std::min(best_.choice.margin, margin_);
+    best_.choice.trials = trials_;
     return best_.choice;
   }
 
@@ -67,14 +68,14 @@ class Search {
   ContactMask all() const { return m_ >= kMostContacts ? ~ContactMask{0} : bit(m_) - 1; }
   void narrow();
   std::array<double, 2> force_range(Index i) const;
-  double trials() const;
+  double ways() const;
   void try_all();
   void try_sets(const std::vector<Index>& open, std::size_t from, Index more, ContactMask slides);
   void try_directions(ContactMask slides);
   void follow_active_set();
   Held hold(ContactMask stuck) const;
   VectorXd held_forces(const Held& held, const VectorXd& needed) const;
-  Trial trial(const Held& held, ContactMask forward) const;
+  Trial trial(const Held& held, ContactMask forward);
   void check_stuck(const Held& held, Index i, Trial& trial) const;
   void check_sliding(Index i, Trial& trial) const;
   void consider(Trial trial);
@@ -91,6 +92,7 @@ class Search {
   std::vector<Ways> ways_;
   Trial best_;
   double margin_ = 1.0;
+  int trials_ = 0;
 };
 
 // The forces that are left to contact i.
@@ -129,7 +131,7 @@ void Search::narrow() {
   }
 }
 
-double Search::trials() const {
+double Search::ways() const {
   double count = 1.0;
   for (const Ways& ways : ways_) count *= ways.count();
   return count;
@@ -212,7 +214,8 @@ VectorXd Search::held_forces(const Held& held, const VectorXd& needed) const {
   return box_minimum(G, needed, -limit, limit, weight).lambda;
 }
 
-Trial Search::trial(const Held& held, ContactMask forward) const {
+Trial Search::trial(const Held& held, ContactMask forward) {
+  ++trials_;
   Trial result;
   RestChoice& choice = result.choice;
   choice.stuck = held.stuck;

@@ -33,6 +33,7 @@ struct RestChoice {
   ContactMask on_edge = 0;
   Eigen::VectorXd force, acceleration;  // lambda, c - G lambda
   double margin = 1.0;  // relative distance of the forces and accelerations from another choice
+  int trials = 0;       // choices looked at, each about the work of an event
 };
 
 // Those of choice.on_edge that do not do just after the instant what they claim.

@@ -195,6 +195,7 @@ template <int N, int H>
     return entries_of(broken_claims(flow, mode, contacts_of(of.on_edge), lets_go, w));
   };
   const RestChoice chosen = admissible_choice(rest, broken);
+  flow.work().add(chosen.trials * flow.event_work());
   if (!chosen.found) w.undecided = kNoneAdmissible;
   w.note_margin(chosen.margin);
   w.settled |= group;

@@ -122,10 +122,12 @@ ContactMask slide_in_groups(Flow<N, H>& flow, const RestProblem& rest, ContactMa
 // letting_go: one whose force has reached its limit here (0: none). Returns those that begin to slide.
 template <int N, int H>
 ContactMask hold_together(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
-  ContactMask slid = 0;
+  ContactMask slid = 0, before = 0;
   for (;;) {
     const ContactMask contacts = at_rest(flow, w);
-    if (contacts == 0) return slid;
+    // None: all slide. As before: those chosen to slide are held by others, and carry their sliding force.
+    if (contacts == 0 || contacts == before) return slid;
+    before = contacts;
     const Mode<N, H>& mode = flow.mode(w.mode);
     w.mode = flow.mode_index(mode.stuck | contacts, mode.positive, mode.beyond);
     flow.accelerate(flow.mode(w.mode), w.left);

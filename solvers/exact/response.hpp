@@ -47,6 +47,9 @@ struct Stretch {
   std::vector<std::string> contacts;  // per element with a contact: "sticks", "slides +", "slides -"
 };
 
+// Of an iwan element, the sum of its sliders' forces alone, or each of them too: they are its state.
+enum class SliderForces { summed, each };
+
 // The response at chosen instants. Rows are samples.
 struct History {
   std::vector<double> time;        // [s]
@@ -55,8 +58,9 @@ struct History {
   std::vector<std::vector<double>> columns;
 
   // Without samples: displacement and velocity of each mass, force of each element, acceleration of each
-  // mass; displacement, velocity and acceleration of each signal.
-  static History of(const mechanics::Network& network) {
+  // mass; displacement, velocity and acceleration of each signal; the force of each slider, if they are
+  // wanted.
+  static History of(const mechanics::Network& network, SliderForces sliders = SliderForces::summed) {
     History history;
     const auto add_column = [&](const std::string& name, std::string_view unit) {
       history.names.push_back(name);
@@ -78,6 +82,11 @@ struct History {
       add_of_coordinate(i, "_displacement", "m");
       add_of_coordinate(i, "_velocity", "m s-1");
       add_of_coordinate(i, "_acceleration", "m s-2");
+    }
+    for (const auto& element : network.elements) {
+      for (std::size_t i = 1; sliders == SliderForces::each && element.parts > 1 && i <= element.parts; ++i)
+        add_column(element.name + "_slider_" + std::to_string(i) + "_force",
+                   mechanics::unit_of_element(element, "N"));
     }
     return history;
   }
@@ -112,7 +121,7 @@ class ResponseSolver {
   virtual const char* why_no_derivative(std::size_t quantity) const = 0;
   virtual const char* observe(std::span<const double> times, std::span<const Observed> observed,
                               std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) = 0;
-  virtual History history(std::span<const double> phases) = 0;
+  virtual History history(std::span<const double> phases, SliderForces sliders) = 0;
   virtual std::vector<Stretch> stretches() const = 0;
 
   virtual void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,

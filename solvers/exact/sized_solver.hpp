@@ -99,7 +99,7 @@ class SizedSolver final : public ResponseSolver {
     return observation.observe(orbit_, assembly_, reported_system(), values_, directions, times, out);
   }
 
-  History history(std::span<const double> phases) override;
+  History history(std::span<const double> phases, SliderForces sliders) override;
   std::vector<Stretch> stretches() const override;
 
  private:
@@ -210,9 +210,9 @@ void SizedSolver<N, H>::weigh() {
 }
 
 template <int N, int H>
-History SizedSolver<N, H>::history(std::span<const double> phases) {
+History SizedSolver<N, H>::history(std::span<const double> phases, SliderForces sliders) {
   const auto& network = assembly_.network();
-  History result = History::of(network);
+  History result = History::of(network, sliders);
   const Forms<N, H> forms(assembly_, flow_);
   const std::vector<mechanics::Incidence> signals = mechanics::signal_incidences(network);
   const Eigen::Index n = flow_.equations().masses();
@@ -244,6 +244,11 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
       for (const LinearForm<N, H>& form :
            {forms.displacement(signal), forms.velocity(signal), forms.acceleration(signal, mode)})
         result.columns[column++].push_back(sign * form.at(instant).value);
+    }
+    for (std::size_t e = 0; sliders == SliderForces::each && e < network.elements.size(); ++e) {
+      for (std::size_t i = 0; network.elements[e].parts > 1 && i < network.elements[e].parts; ++i)
+        result.columns[column++].push_back(sign *
+                                           force_form(forms, e + i, 1, system_, mode).at(instant).value);
     }
   }
   return result;

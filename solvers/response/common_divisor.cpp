@@ -140,10 +140,10 @@ class DividedOrders final : public ResponseSolver {
     return solver_->observe(times, observed, quickened(directions), out);
   }
 
-  History history(std::span<const double> phases) override {
+  History history(std::span<const double> phases, SliderForces sliders) override {
     std::vector<double> quick(phases.begin(), phases.end());
     for (double& phase : quick) phase *= divisor_;
-    return solver_->history(quick);
+    return solver_->history(quick, sliders);
   }
 
   std::vector<Stretch> stretches() const override {

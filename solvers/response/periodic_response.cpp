@@ -85,8 +85,8 @@ std::string PeriodicResponse::observe(std::span<const double> times, std::span<c
                                       ObservedMotion& out) {
   return solver_->observe(times, observed, directions, out);
 }
-History PeriodicResponse::history(std::span<const double> phases) {
-  return solver_->history(phases);
+History PeriodicResponse::history(std::span<const double> phases, SliderForces sliders) {
+  return solver_->history(phases, sliders);
 }
 std::vector<Stretch> PeriodicResponse::stretches() const {
   return solver_->stretches();

@@ -100,7 +100,7 @@ class PeriodicResponse {
 
   // For a response that is ok, several or grazing, at these phases omega t [rad]; where something jumps, what
   // it jumps to.
-  History history(std::span<const double> phases);
+  History history(std::span<const double> phases, SliderForces sliders = SliderForces::summed);
   std::vector<Stretch> stretches() const;
 
  private:

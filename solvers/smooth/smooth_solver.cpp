@@ -125,7 +125,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
     out = {};
     return why_no_derivative(0);
   }
-  History history(std::span<const double> phases) override;
+  History history(std::span<const double> phases, periodic::SliderForces sliders) override;
   std::vector<periodic::Stretch> stretches() const override { return {}; }  // nothing ever sticks
 
  private:
@@ -260,7 +260,7 @@ bool SmoothSolver::guess_from_exact_law() {
   const Status status = exact_->solve().status;
   if (status != Status::ok && status != Status::grazing) return false;
   constexpr Eigen::Index kSamples = 64;
-  const History history = exact_->history(periodic::phases_of_a_period(kSamples + 1));
+  const History history = exact_->history(periodic::phases_of_a_period(kSamples + 1), periodic::SliderForces::summed);
   const Eigen::Index n = equation_.masses();
   const auto& elements = assembly_.network().elements;
   Eigen::MatrixXd states(equation_.size(), kSamples), speeds(equation_.terms(), kSamples);
@@ -310,7 +310,7 @@ void SmoothSolver::state_at(double phase, Eigen::VectorXd& z) const {
   z *= place.sign;
 }
 
-History SmoothSolver::history(std::span<const double> phases) {
+History SmoothSolver::history(std::span<const double> phases, periodic::SliderForces) {
   const Network& network = assembly_.network();
   const Forms forms(assembly_, equation_);
   History result = History::of(network);

@@ -16,16 +16,19 @@ bool has_state(const mechanics::Element& element) {
   return element.type == mechanics::ElementType::maxwell || element.type == mechanics::ElementType::jenkins;
 }
 
-// The samples of a history that are part of the state, by their columns.
+// The samples of a history that are part of the state, by their columns: those of sliders come last.
 std::vector<std::size_t> state_columns(const mechanics::Network& network) {
   std::vector<std::size_t> columns;
-  std::size_t column = 0;
+  std::size_t column = 0, sliders = 0;
   for (; column < 2 * network.masses.size(); ++column) columns.push_back(column);
   for (const mechanics::Element& element : network.elements) {
     if (element.parts == 0) continue;
-    if (has_state(element)) columns.push_back(column);
+    if (has_state(element) && element.parts == 1) columns.push_back(column);
     ++column;
   }
+  for (const mechanics::Element& element : network.elements) sliders += element.parts > 1 ? element.parts : 0;
+  const std::size_t all = periodic::History::of(network, periodic::SliderForces::each).columns.size();
+  for (column = all - sliders; column < all; ++column) columns.push_back(column);
   return columns;
 }
 
@@ -55,7 +58,7 @@ class Responses {
   }
 
   std::vector<Number> state_at(double phase) {
-    const periodic::History history = response_.history(std::vector<double>{phase});
+    const periodic::History history = response_.history(std::vector<double>{phase}, periodic::SliderForces::each);
     std::vector<Number> state;
     for (const std::size_t i : columns_)
       state.push_back(

@@ -531,6 +531,30 @@ starts = 1
   }
 }
 
+// With a large force both sliders slip from one turning point almost to the next: at omega t = 0, between
+// them, each has its own limit, 0.1 and 0.4.
+TEST_CASE("point --responses gives the force of each slider of an iwan, without which no motion restarts") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", damped_mass("r = 1.55\n", R"(name = "joint"
+type = "iwan"
+stiffnesses = [4, 4]
+forces = [0.1, 0.4]
+)",
+                                                                   kOrderOne + R"([[axis]]
+parameter = "r"
+values = [1.55]
+)"));
+  const std::string out = runs::frahm({"point", study, "--responses", "--json"}).out;
+  INFO(out);
+  const auto value_of = [&](const std::string& name) {
+    const auto place = out.find("\"" + name + "\"");
+    REQUIRE(place != std::string::npos);
+    return std::stod(out.substr(out.find("\"value\":", place) + 8));
+  };
+  CHECK_THAT(std::abs(value_of("joint_slider_1_force")), WithinRel(0.1, kClosed));
+  CHECK_THAT(std::abs(value_of("joint_slider_2_force")), WithinRel(0.4, kClosed));
+}
+
 // It loses 2 F/k of amplitude from each turning point to the next, and stays at the first within F_s/k.
 TEST_CASE("a free motion stays where static friction first holds it") {
   const auto outcome_of = [](const std::string& static_force) {

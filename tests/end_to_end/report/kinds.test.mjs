@@ -93,7 +93,7 @@ test("the fit quality shown is that of the file", async (t) => {
   const { page } = await open(t, join(folder, "fit.html"));
   const value = stored(file, "identification/nrmse", [0]);
   const row = await page
-    .locator("tr", { hasText: "all of it" })
+    .locator("tr", { hasText: "all quantities" })
     .first()
     .locator("td.number")
     .first()
