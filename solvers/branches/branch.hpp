@@ -23,8 +23,9 @@ struct BranchPoint {
   std::vector<double> quantities;  // those asked for
   double floquet_radius = 0.0;     // of the orbit's whole period; NaN where an event only just happens
   bool stable = false;
-  int multiple = 1;       // of the excitation's period, that the orbit takes
-  double residual = 0.0;  // of the periodic condition, relative, energy norm
+  int multiple = 1;          // of the excitation's period, that the orbit takes
+  double residual = 0.0;     // of the periodic condition, relative, energy norm
+  bool is_balanced = false;  // false: its energies do not balance, and its quantities are missing
 };
 
 enum class SpecialKind {

@@ -45,8 +45,8 @@ class BranchMap {
   void set_section(double section) { section_ = section; }
   // The place of the same orbit at another section; empty where the motion there cannot be followed.
   Eigen::VectorXd moved(const Eigen::VectorXd& y, double section);
-  // For an orbit of a multiple of the period that `part` divides: how far the motion is from y after this part
-  // of its time, scaled as y. Zero where the orbit takes only so long. Empty where the motion cannot be
+  // For an orbit of a multiple of the period that `part` divides: how far the motion is from y after this
+  // part of its time, scaled as y. Zero where the orbit takes only so long. Empty where the motion cannot be
   // followed.
   Eigen::VectorXd gap_after(int part, const Eigen::VectorXd& y);
   // Where an event has come within 2 % of the map's length: a section that is far from all; otherwise none.

@@ -89,8 +89,8 @@ class BranchWalk {
     return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
   }
 
-  // Whether the orbit of a place is one of a divisor of the multiple: on another branch, which crosses this one
-  // or from which it comes.
+  // Whether the orbit of a place is one of a divisor of the multiple: on another branch, which crosses this
+  // one or from which it comes.
   bool takes_less_time(const BranchPlace& place) const {
     constexpr double kSame = 1e-9;
     for (int part = 2; part <= map_.multiple(); ++part) {
@@ -101,7 +101,8 @@ class BranchWalk {
     return false;
   }
 
-  // The same orbit as at the first place, seen each period of the excitation later: the branch may close there.
+  // The same orbit as at the first place, seen each period of the excitation later: the branch may close
+  // there.
   void add_later_firsts() {
     const double turn = 2.0 * std::numbers::pi;
     const BranchPlace first = firsts_.front();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "solvers/branches/branch_walk.hpp"
@@ -58,6 +59,7 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
     return point;
   }
   observables_.evaluate(orbit, map_.system(), point.quantities);
+  point.is_balanced = true;
   point.floquet_radius = orbit.floquet_radius;
   point.stable = orbit.is_stable() || map_.system().monotone;  // then motions never part
   point.multiple = orbit.multiple;
@@ -77,19 +79,26 @@ bool FollowedBranch::is_known_at(const Eigen::VectorXd& y, const IsKnown& is_kno
 
 FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool stable, double sign,
                                                   const IsKnown& is_known, const BranchProgress& progress) {
-  constexpr int kJoined = 2;  // points in turn: one alone is where two branches cross
+  constexpr int kJoined = 2;      // points in turn: one alone is where two branches cross
+  constexpr double kLarge = 1e4;  // of the size at the start
   OneWay way;
   double arclength = 0.0;
   int known = 0;
+  bool grows = false;
   const FoundOnBranch found = [&](const BranchStep& step) {
+    std::optional<BranchPoint> point;
+    if (step.to != nullptr) point = tell(step.to->y);
+    // A response this large whose energies are rounding grows without bound: its residual no longer shows.
+    grows = point && !point->is_balanced && step.to->y.norm() > kLarge;
+    if (grows) return false;
     for (const SpecialPlace& each : step.special) {
       BranchPoint at = tell(each.place.y);
       at.arclength = sign * (arclength + (each.place.y - step.from.y).norm());
       way.special.push_back({each.kind, std::move(at), way.points.size(), each.element, each.residual});
     }
-    if (step.to == nullptr) return true;
+    if (!point) return true;
     arclength += (step.to->y - step.from.y).norm();
-    way.points.push_back(tell(step.to->y));
+    way.points.push_back(std::move(*point));
     way.points.back().arclength = sign * arclength;
     const bool now = way.points.back().stable;
     steps_.push_back({step.from.y, step.to->y, map_.section(), std::exchange(stable, now), now});
@@ -98,6 +107,7 @@ FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool
     return known < kJoined;
   };
   way.end = walk_branch(map_, wanted_, first, found);
+  if (grows) way.end = BranchEnd::unbounded;
   return way;
 }
 

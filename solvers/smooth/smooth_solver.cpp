@@ -260,7 +260,8 @@ bool SmoothSolver::guess_from_exact_law() {
   const Status status = exact_->solve().status;
   if (status != Status::ok && status != Status::grazing) return false;
   constexpr Eigen::Index kSamples = 64;
-  const History history = exact_->history(periodic::phases_of_a_period(kSamples + 1), periodic::SliderForces::summed);
+  const History history =
+      exact_->history(periodic::phases_of_a_period(kSamples + 1), periodic::SliderForces::summed);
   const Eigen::Index n = equation_.masses();
   const auto& elements = assembly_.network().elements;
   Eigen::MatrixXd states(equation_.size(), kSamples), speeds(equation_.terms(), kSamples);

@@ -58,7 +58,8 @@ class Responses {
   }
 
   std::vector<Number> state_at(double phase) {
-    const periodic::History history = response_.history(std::vector<double>{phase}, periodic::SliderForces::each);
+    const periodic::History history =
+        response_.history(std::vector<double>{phase}, periodic::SliderForces::each);
     std::vector<Number> state;
     for (const std::size_t i : columns_)
       state.push_back(

@@ -482,7 +482,8 @@ quantities = ["main_peak"]
   CHECK_THAT(point.out,
              Catch::Contains("one of a continuum: 1 slider of jenkins or iwan elements never slips") &&
                  Catch::Contains("z(T/2) = -z(0); the error bound refers to this one"));
-  CHECK_THAT(runs::frahm({"point", study, "--at", "F=0.1"}).out, !Catch::Contains("one of a continuum: 1 slider"));
+  CHECK_THAT(runs::frahm({"point", study, "--at", "F=0.1"}).out,
+             !Catch::Contains("one of a continuum: 1 slider"));
 }
 
 // Between its folds the machine has two stable responses; the small one never touches the stops and is

@@ -162,6 +162,48 @@ TEST_CASE("Contacts of a loop whose limits are reached together let go together"
   CHECK_THAT(responses["driven_peak"], WithinAbs(of_one["driven_peak"], kRounding));
 }
 
+// Three masses, each tied to the ground and to the others by a spring and friction; four of the six contacts
+// hold more at rest. All that one choice sets sliding is held by the rest, and so rests: the choice was made
+// again for ever. The six carry the largest load, 3.307, all within what they hold.
+TEST_CASE("Contacts of a loop that are to slide, and are held by the others, rest") {
+  struct Joint {
+    Node from, to;
+    double stiffness, friction, at_rest;
+  };
+  const auto mass = [](std::size_t i) { return Node{NodeKind::mass, i}; };
+  const Joint joints[] = {{kGround, mass(0), 0.6167587256175271, 0.5370001608091786, 0.6069911958318489},
+                          {kGround, mass(1), 0.5871662147462637, 0.7008711730441279, 0.7008711730441279},
+                          {mass(0), mass(1), 0.7658220767727153, 0.5483167201883866, 0.6719537548730745},
+                          {kGround, mass(2), 0.8308384361287993, 0.5368711234800521, 0.5368711234800521},
+                          {mass(0), mass(2), 0.7411234088516734, 0.8054660653056613, 1.1809979713928633},
+                          {mass(1), mass(2), 0.7221268640879392, 0.9478658834055762, 1.8013975138935119}};
+  Network network;
+  network.masses = {"first", "second", "third"};
+  network.excitations = {{ExcitationKind::force, 0, 1}, {ExcitationKind::force, 0, 0}};
+  NetworkValues values{.omega = 0.3,
+                       .mass = {1.0, 1.0, 1.0},
+                       .element = {},
+                       .excitation = {{1.3186075135078057, 3.7175268151048755}, {1.9887514052594406, 0.0}},
+                       .second = {}};
+  std::vector<std::string> names;
+  for (const Joint& joint : joints) {
+    names.push_back("joint" + std::to_string(names.size()));
+    network.elements.push_back({names.back() + "_spring", ElementType::spring, joint.from, joint.to});
+    network.elements.push_back({names.back(), ElementType::coulomb, joint.from, joint.to});
+    network.elements.back().has_static_force = joint.at_rest > joint.friction;
+    values.element.insert(values.element.end(), {joint.stiffness, joint.friction});
+    values.second.insert(values.second.end(), {0.0, joint.at_rest > joint.friction ? joint.at_rest : 0.0});
+  }
+  Responses responses(network);
+  const auto summary = responses.solve(values);
+  INFO(summary.reason);
+  REQUIRE(has_response(summary.status));
+  for (const char* each : {"first_amplitude", "second_amplitude", "third_amplitude"})
+    CHECK(responses[each] == 0.0);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    CHECK(responses[names[i] + "_force_peak"] <= joints[i].at_rest * (1.0 + kRounding));
+}
+
 // How far a load is from all that contacts with directions W carry within their limits.
 double out_of_reach(const Eigen::MatrixXd& W, const Eigen::VectorXd& load, const Eigen::VectorXd& limit) {
   const BoxMinimum nearest = box_minimum(W.transpose() * W, W.transpose() * load, -limit, limit, limit);

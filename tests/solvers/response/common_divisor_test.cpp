@@ -177,7 +177,8 @@ TEST_CASE("Divided or not, a response is the same") {
     }
   }
   const std::vector<double> phases = phases_of_a_period(33);
-  const History whole = undivided->history(phases, SliderForces::summed), divided = found.response().history(phases);
+  const History whole = undivided->history(phases, SliderForces::summed),
+                divided = found.response().history(phases);
   for (std::size_t c = 0; c < whole.columns.size(); ++c) {
     for (std::size_t i = 0; i < phases.size(); ++i) {
       INFO(whole.names[c] << " at " << phases[i]);
