@@ -143,7 +143,7 @@ test("a dimensionless decay has no unit, on its page and in its files", async (t
   ]);
   const { page } = await open(t, join(folder, "own.html"));
   const text = await page.locator("main section", { hasText: "What this means" }).first().textContent();
-  assert.match(text, /Of 200000 dissipated, 100 % in damper/);
+  assert.match(text, /Of the 200000 dissipated, 100 % in damper/);
   const labels = await page.locator(".plot svg").allTextContents();
   assert.ok(!labels.some((label) => /\((s|k?J|m?m|m\/s)\)/.test(label)), labels.join("\n"));
 });
