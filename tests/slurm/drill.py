@@ -133,7 +133,7 @@ def check_printed_lines(drill, source, raw_bytes):
     reduced_study(source, "a small study.toml", 5, frequencies=101)
     replaced = "--set", "K=8200 N/m"
     printed = drill.cluster.run("frahm", "check", "a small study.toml", *replaced)
-    assert "of at most 1001" in printed, printed  # MaxArraySize of this Slurm
+    assert "(at most 1001)" in printed, printed  # MaxArraySize of this Slurm
     lines = [line.strip() for line in printed.splitlines() if line.startswith(("  sbatch ", "  frahm merge "))]
     assert len(lines) == 2, printed
     job = drill.cluster.run("sh", "-c", lines[0]).split()[-1]
