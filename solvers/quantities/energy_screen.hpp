@@ -37,6 +37,11 @@ class EnergyScreen {
     double coefficient = 1.0;
     std::size_t x = 0, y = 0;  // of the forms
   };
+  struct Entry {
+    std::size_t form = 0;
+    Eigen::Index column = 0;
+    double factor = 0.0;
+  };
 
   void list(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
   void list_losses(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
@@ -44,6 +49,7 @@ class EnergyScreen {
   std::size_t place_of(const Form& form);
   void sample(const Step& step);
   void sample(const Expansion<N, H>& x, double length);
+  void find_entries();
   void add_powers(double length, const mechanics::LinearSystem& system);
   void add_friction(const Mode<N, H>& mode, const Step& first, const Step& last,
                     const mechanics::LinearSystem& system);
@@ -53,6 +59,7 @@ class EnergyScreen {
   Forms<N, H> forms_;
 
   std::vector<Form> listed_;
+  std::vector<Entry> of_states_, of_oscillators_;  // of the forms, that are not zero
   std::vector<Power> losses_, inputs_;
   std::size_t structure_ = 0;  // the first of the forms that the structure's damping takes
   Rows step_rows_;
@@ -106,6 +113,20 @@ void EnergyScreen<N, H>::list(const Mode<N, H>& mode, const mechanics::LinearSys
   list_inputs(mode, system);
   values_.resize(listed_.size());
   rows_.resize(listed_.size());
+  find_entries();
+}
+
+// A form takes two masses, of however many there are.
+template <int N, int H>
+void EnergyScreen<N, H>::find_entries() {
+  of_states_.clear();
+  of_oscillators_.clear();
+  for (std::size_t f = 0; f < listed_.size(); ++f) {
+    for (Eigen::Index k = 0; k < listed_[f].z.size(); ++k)
+      if (listed_[f].z[k] != 0.0) of_states_.push_back({f, k, listed_[f].z[k]});
+    for (Eigen::Index k = 0; k < listed_[f].u.size(); ++k)
+      if (listed_[f].u[k] != 0.0) of_oscillators_.push_back({f, k, listed_[f].u[k]});
+  }
 }
 
 template <int N, int H>
@@ -184,12 +205,11 @@ template <int N, int H>
 void EnergyScreen<N, H>::sample(const Expansion<N, H>& x, double length) {
   Nodes at;
   for (int i = 0; i < kNodes; ++i) at.col(i) = powers(length * kNodeAt[i]);
-  const Eigen::Matrix<double, kNodes, S::kState> z = at.transpose().lazyProduct(x.z);
-  const Eigen::Matrix<double, kNodes, S::kOscillators> u = at.transpose().lazyProduct(x.u);
-  for (std::size_t f = 0; f < listed_.size(); ++f) {
-    values_[f].noalias() = z.lazyProduct(listed_[f].z);
-    values_[f].noalias() += u.lazyProduct(listed_[f].u);
-  }
+  for (AtNodes& value : values_) value.setZero();
+  for (const Entry& entry : of_states_)
+    values_[entry.form].noalias() += at.transpose().lazyProduct(entry.factor * x.z.col(entry.column));
+  for (const Entry& entry : of_oscillators_)
+    values_[entry.form].noalias() += at.transpose().lazyProduct(entry.factor * x.u.col(entry.column));
 }
 
 template <int N, int H>
