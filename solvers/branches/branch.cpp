@@ -48,6 +48,8 @@ const char* end_name(BranchEnd end) {
       return "lost";
     case BranchEnd::unbounded:
       return "unbounded";
+    case BranchEnd::family:
+      return "family";
   }
   return "";
 }
@@ -72,6 +74,9 @@ const char* end_sentence(BranchEnd end) {
       return "no neighbouring orbit was found to continue it";
     case BranchEnd::unbounded:
       return "the response grows without bound";
+    case BranchEnd::family:
+      return "it meets a resonance of a multiple of the frequency that nothing damps, where a family of "
+             "orbits exists";
   }
   return "";
 }

@@ -65,6 +65,7 @@ enum class BranchEnd {
   rule,    // beyond it the values break a rule
   lost,
   unbounded,  // towards an undamped resonance
+  family,     // a multiple of the frequency is an undamped resonance: any free motion there may be added
 };
 const char* end_name(BranchEnd end);  // "range"
 const char* end_sentence(BranchEnd end);

@@ -94,30 +94,6 @@ void BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot) {
   shot.residual = root_ * residual / scale_;
 }
 
-// By central differences within the range: what the parameter changes (the period, the matrices) has no
-// derivative in the flow. Where an event begins between both ends, by the side that has the events of y.
-Eigen::VectorXd BranchMap::by_parameter(const Eigen::VectorXd& y, bool& failed) {
-  constexpr double kStep = 1e-6;  // of the range
-  const Eigen::Index last = y.size() - 1;
-  const double low = std::min(0.0, y[last]), high = std::max(1.0, y[last]);
-  double at[] = {std::max(y[last] - kStep, low), std::min(y[last] + kStep, high)};
-  Side ends[2];
-  for (int i = 0; i < 2; ++i) {
-    ends[i] = side(y, at[i]);
-    failed = failed || ends[i].residual.size() == 0;
-  }
-  if (failed) return {};
-  if (ends[0].events != ends[1].events) {
-    const Side middle = side(y, y[last]);
-    failed = middle.residual.size() == 0;
-    if (failed) return {};
-    const int other = middle.events == ends[0].events ? 1 : 0;
-    ends[other] = middle;
-    at[other] = y[last];
-  }
-  return (ends[1].residual - ends[0].residual) / (at[1] - at[0]);
-}
-
 // The residual, and the events, of the state of y at another value of the parameter; none where it fails.
 BranchMap::Side BranchMap::side(Eigen::VectorXd y, double at) {
   y[y.size() - 1] = at;
@@ -125,17 +101,29 @@ BranchMap::Side BranchMap::side(Eigen::VectorXd y, double at) {
   Shot shot;
   pass(y, Tangent::none, shot);
   if (shot.failed) return {};
-  return {shot.residual, count_events(flow_, shot.passage)};
+  return {at, shot.residual, count_events(flow_, shot.passage)};
 }
 
+// By differences within the range: what the parameter changes (the period, the matrices) has no derivative in
+// the flow.
 Shot BranchMap::shoot(const Eigen::VectorXd& y) {
+  constexpr double kSteps[] = {1e-6, 1e-8};  // of the range
   Shot shot;
   try {
-    const Eigen::VectorXd column = by_parameter(y, shot.failed);
-    if (shot.failed) return shot;
-    set(parameter(y));
-    pass(y, Tangent::followed, shot);
-    if (shot.failed) return shot;
+    Eigen::VectorXd column;
+    bool is_straight = false;
+    for (const double step : kSteps) {
+      if (is_straight || (step != kSteps[0] && !is_next_to_grazing_)) break;
+      const double here = y[y.size() - 1];
+      const Side before = side(y, std::max(here - step, std::min(0.0, here))),
+                 after = side(y, std::min(here + step, std::max(1.0, here)));
+      set(parameter(y));
+      pass(y, Tangent::followed, shot);
+      shot.failed = shot.failed || before.residual.size() == 0 || after.residual.size() == 0;
+      if (shot.failed) return shot;
+      column =
+          by_parameter(before, {here, shot.residual, count_events(flow_, shot.passage)}, after, is_straight);
+    }
     const auto& eq = flow_.equations();
     Eigen::MatrixXd A = (half_period_ ? -1.0 : 1.0) * shot.passage.tangent;
     A.diagonal().array() -= 1.0;
@@ -148,6 +136,23 @@ Shot BranchMap::shoot(const Eigen::VectorXd& y) {
     shot.failed = true;
   }
   return shot;
+}
+
+// From one side to the other; where an event begins between both, of the one that has the events of here.
+Eigen::VectorXd BranchMap::by_parameter(const Side& before, const Side& here, const Side& after,
+                                        bool& is_straight) {
+  constexpr double kStraight = 1e-3;
+  const auto slope = [](const Side& from, const Side& to) -> Eigen::VectorXd {
+    return (to.residual - from.residual) / (to.at - from.at);
+  };
+  if (before.events != after.events) {
+    is_straight = false;
+    return before.events == here.events ? slope(before, here) : slope(here, after);
+  }
+  const Eigen::VectorXd column = slope(before, after);
+  const bool is_at_end = before.at == here.at || after.at == here.at;
+  is_straight = is_at_end || (slope(before, here) - slope(here, after)).norm() < kStraight * column.norm();
+  return column;
 }
 
 AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {

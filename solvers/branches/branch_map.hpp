@@ -37,6 +37,10 @@ class BranchMap {
   Eigen::VectorXd place_of(const AnyOrbit& orbit) const;
   int multiple() const { return multiple_; }  // of the excitation's period
 
+  // Next to a grazing the residual bends like the root of the distance: its derivative by the parameter is
+  // then taken over a shorter step.
+  void set_next_to_grazing(bool is_next) { is_next_to_grazing_ = is_next; }
+
   // Leaves the flow set to the parameter of y.
   Shot shoot(const Eigen::VectorXd& y);
 
@@ -70,12 +74,14 @@ class BranchMap {
   double length() const { return (half_period_ ? 0.5 : 1.0) * flow_.equations().period; }
   void pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot);
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
-  Eigen::VectorXd by_parameter(const Eigen::VectorXd& y, bool& failed);
   struct Side {
+    double at = 0.0;  // of the parameter, scaled
     Eigen::VectorXd residual;
     std::vector<int> events;
   };
   Side side(Eigen::VectorXd y, double at);
+  static Eigen::VectorXd by_parameter(const Side& before, const Side& here, const Side& after,
+                                      bool& is_straight);
 
   mechanics::Assembly assembly_;
   ValuesAlong values_;
@@ -87,7 +93,7 @@ class BranchMap {
   Walk<kAnySize, kAnySize> walk_;
 
   int multiple_ = 1;
-  bool half_period_ = false;
+  bool half_period_ = false, is_next_to_grazing_ = false;
   double scale_ = 1.0, section_ = 0.0;
   Eigen::MatrixXd root_, root_inverse_;  // R of states in SI
 };

@@ -29,6 +29,7 @@ class BranchWalk {
       : map_(map), wanted_(wanted), found_(found) {}
 
   BranchEnd follow(const BranchPlace& first) {
+    set_close(false);
     here_ = first;
     firsts_ = {first};
     add_later_firsts();
@@ -39,7 +40,8 @@ class BranchWalk {
       const auto next = take_step();
       if (!next) {
         step_ *= 0.5;
-        if (step_ < limits_.least && !pass_corner()) return end_here();
+        if (step_ >= limits_.least || look_closer()) continue;
+        if (!pass_corner()) return end_here();
         continue;
       }
       if (const auto origin = origin_of_doubling(map_, here_, *next)) {
@@ -80,7 +82,7 @@ class BranchWalk {
       across = Eigen::VectorXd::Unit(last + 1, last);
     }
     auto next = correct(map_, predicted, across, here_.tangent);
-    if (!next || takes_less_time(*next)) return std::nullopt;
+    if (!next || !next->is_single || takes_less_time(*next)) return std::nullopt;
     if (next->y[last] < 0.0 || next->y[last] > 1.0) return std::nullopt;
     if (across[last] == 1.0) next->y[last] = predicted[last];
     const double shift = (next->y - predicted).norm() / step_;
@@ -89,12 +91,14 @@ class BranchWalk {
     return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
   }
 
-  // Whether the orbit of a place is one of a divisor of the multiple: on another branch, which crosses this
-  // one or from which it comes.
+  // Whether the orbit of a place takes the multiple divided by a prime: it is on another branch, which
+  // crosses this one or from which it comes.
   bool takes_less_time(const BranchPlace& place) const {
     constexpr double kSame = 1e-9;
-    for (int part = 2; part <= map_.multiple(); ++part) {
-      if (map_.multiple() % part != 0) continue;
+    int left = map_.multiple();  // without the primes that were asked
+    for (int part = 2; part <= left; ++part) {
+      if (left % part != 0) continue;
+      while (left % part == 0) left /= part;
       const Eigen::VectorXd gap = map_.gap_after(part, place.y);
       if (gap.size() > 0 && gap.norm() < kSame * std::max(1.0, place.y.norm())) return true;
     }
@@ -115,6 +119,18 @@ class BranchWalk {
       if (auto place = correct(map_, y, along, first.parameter_rate() * along))
         firsts_.push_back(std::move(*place));
     }
+  }
+
+  // False: the map does so already.
+  bool look_closer() {
+    if (is_close_) return false;
+    set_close(true);
+    step_ = limits_.kink;
+    return true;
+  }
+  void set_close(bool is_close) {
+    is_close_ = is_close;
+    map_.set_next_to_grazing(is_close);
   }
 
   // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side
@@ -140,7 +156,7 @@ class BranchWalk {
     constexpr double kNear = 30.0;  // several events may begin together, each with its own map
     constexpr double kSame = 1e-4;
     auto next = correct(map_, here_.y + distance * way, way, way);
-    if (!next || next->events == here_.events) return std::nullopt;
+    if (!next || !next->is_single || next->events == here_.events) return std::nullopt;
     const Eigen::VectorXd on = next->y - here_.y;
     if (on.norm() > kNear * distance) return std::nullopt;
     const auto before = come_by(here_.tangent.dot(on));  // not on the way back
@@ -182,6 +198,8 @@ class BranchWalk {
     } catch (const mechanics::MechanicsError&) {
       return BranchEnd::rule;
     }
+    const auto next = correct(map_, here_.y + limits_.least * here_.tangent, here_.tangent, here_.tangent);
+    if (next && !next->is_single) return BranchEnd::family;
     const Shot shot = map_.shoot(beyond);
     if (shot.failed) return BranchEnd::lost;
     const std::vector<int> there = count_events(map_.flow(), shot.passage);
@@ -201,10 +219,11 @@ class BranchWalk {
 
   // False: the branch is known from there on.
   bool accept(const BranchPlace& next) {
-    constexpr double kGrow = 1.5;
+    constexpr double kGrow = 1.5, kAway = 1e-4;
     constexpr int kFast = 4;  // Newton's steps
     const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
     const bool is_new = found_({here_, &next, special_places(map_, here_, next)});
+    if (is_close_ && step_ > kAway) set_close(false);
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
       step_ = std::min(kGrow * step_, wanted_.largest_step * std::max(1.0, next.y.norm()));
     here_ = next;
@@ -242,6 +261,7 @@ class BranchWalk {
   std::vector<BranchPlace> firsts_;      // the first place, then those of add_later_firsts
   std::vector<Eigen::VectorXd> passed_;  // the last one is here
   double step_ = 0.0;
+  bool is_close_ = false;  // to a grazing
 };
 
 }  // namespace
@@ -251,6 +271,7 @@ BranchEnd walk_branch(BranchMap& map, const BranchWanted& wanted, const BranchPl
   const double section = map.section();
   const BranchEnd end = BranchWalk(map, wanted, found).follow(first);
   map.set_section(section);
+  map.set_next_to_grazing(false);
   return end;
 }
 

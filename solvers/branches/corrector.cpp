@@ -14,6 +14,14 @@ Eigen::MatrixXd bordered(const Eigen::MatrixXd& derivative, const Eigen::VectorX
   return A;
 }
 
+// Whether the orbits next to this one form a curve. The columns are brought to one size: at a resonance that
+// of the parameter is very large.
+bool is_curve(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& tangent) {
+  constexpr double kRounding = 1e-14;  // a branch up to a peak of 1e9 was seen at 4e-13
+  const Eigen::MatrixXd A = bordered(derivative, tangent).colwise().normalized();
+  return A.partialPivLu().rcond() > kRounding;
+}
+
 }  // namespace
 
 int BranchPlace::unstable() const {
@@ -46,6 +54,7 @@ std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start,
       place.better_section = section.value_or(0.0);
       place.tangent = branch_tangent(shot.derivative, towards);
       if (!place.tangent.allFinite()) return std::nullopt;
+      place.is_single = is_curve(shot.derivative, place.tangent);
       place.multipliers = map.multipliers(shot);
       place.events = count_events(map.flow(), shot.passage);
       return place;

@@ -15,6 +15,7 @@ struct BranchPlace {
   Eigen::VectorXcd multipliers;
   std::vector<int> events;
   int newton_iterations = 0;
+  bool is_single = true;  // false: a whole family of orbits has this value of the parameter
   bool section_is_near_event = false;
   double better_section = 0.0;  // then: omega t [rad] in the middle of the longest stretch without events
 

@@ -104,7 +104,9 @@ void add_fold(const PartOfBranch& stretch, std::vector<SpecialPlace>& found) {
 std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to) {
   const PartOfBranch stretch(map, from, to);
   std::vector<SpecialPlace> found;
-  const bool turns = (from.parameter_rate() > 0.0) != (to.parameter_rate() > 0.0);
+  // Where all laws are monotone one value of the parameter has one orbit, and nothing turns back but
+  // rounding.
+  const bool turns = !map.system().monotone && (from.parameter_rate() > 0.0) != (to.parameter_rate() > 0.0);
   add_grazings(stretch, found);
   add_stability_change(stretch, turns, found);
   if (turns) add_fold(stretch, found);

@@ -55,6 +55,7 @@ void SizedSolver<N, H>::search_row(std::span<const mechanics::NetworkValues> poi
     set(points[searched[k]]);
     const LimitedSearch limit(flow_.work());
     if (k + 1 < searched.size()) coexistence_.add(system_, orbits[k + 1], orbits[k]);
+    keep_balanced(orbits[k]);
     coexistence_.tell(system_, orbits[k], orbit_);
     record(searched[k], conclude());
   }

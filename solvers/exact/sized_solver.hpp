@@ -106,6 +106,7 @@ class SizedSolver final : public ResponseSolver {
   bool has_response() const { return orbit_.is_found(); }
   const mechanics::LinearSystem& reported_system() const { return orbit_.multiple > 1 ? longer_ : system_; }
   void weigh();
+  void keep_balanced(StableOrbits<N, H>& found);
   const ResponseSummary& conclude();
 
   // Rows of systems that may have several responses (several_rows.hpp).
@@ -147,6 +148,7 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
     search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
   } else {
     before_ = coexistence_.find(system_, &before_);
+    keep_balanced(before_);
     coexistence_.tell(system_, before_, orbit_);
   }
   return conclude();
@@ -207,6 +209,24 @@ void SizedSolver<N, H>::weigh() {
   orbit_.status = Status::failed;
   orbit_.reason = unbalanced(observables_.energy_balance());
   search_.forget();
+}
+
+// Of several orbits, those whose energies balance: at a peak of 1e9 one orbit may be found twice, once with
+// energies that are rounding. Where none balances, the one to be reported tells so.
+template <int N, int H>
+void SizedSolver<N, H>::keep_balanced(StableOrbits<N, H>& found) {
+  if (found.stable.size() < 2) return;
+  std::vector<StableOrbit<N, H>> balanced;
+  for (std::size_t i = 0; i < found.stable.size(); ++i) {
+    observables_.forget();
+    flow_.set_forcing(system_);
+    coexistence_.tell(system_, found, i, orbit_);
+    if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
+    if (orbit_.is_found() && observables_.is_balanced(orbit_, reported_system()))
+      balanced.push_back(found.stable[i]);
+  }
+  flow_.set_forcing(system_);
+  if (!balanced.empty()) found.stable = std::move(balanced);
 }
 
 template <int N, int H>

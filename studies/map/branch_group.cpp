@@ -41,7 +41,7 @@ results::Variable number(const std::string& name, const std::string& long_name) 
 
 std::vector<results::Variable> row_variables(const Study& study, const std::vector<std::size_t>& beside) {
   std::vector<std::string> ends;
-  for (int end = 0; end <= static_cast<int>(BranchEnd::unbounded); ++end)
+  for (int end = 0; end <= static_cast<int>(BranchEnd::family); ++end)
     ends.emplace_back(periodic::end_name(static_cast<BranchEnd>(end)));
   std::vector<results::Variable> variables;
   for (const std::size_t parameter : beside) variables.push_back(parameter_variable(study, parameter));

@@ -383,5 +383,73 @@ TEST_CASE("A branch towards an undamped resonance stays right until its response
   CHECK(large > 100);
 }
 
+// Two masses that a spring with a slider joins, without damping. It begins to slip next to where seven times
+// the frequency is a natural frequency of the stuck system: the branch turns there by nearly a right angle.
+TEST_CASE("A branch goes on where a slider begins to slip next to a resonance of a higher harmonic") {
+  const mechanics::Node other{mechanics::NodeKind::mass, 1};
+  Network network{.masses = {"x", "y"},
+                  .prescribed = {},
+                  .elements = {{"first", ElementType::spring, ground, mass},
+                               {"second", ElementType::spring, mass, other},
+                               {"slider", ElementType::jenkins, mass, other}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  constexpr double kJoint = 2.716, kLimit = 0.1864, kFrom = 0.4;
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0, 1.0},
+                         .element = {1.0, 1.0, kJoint},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.0, kLimit}};
+  };
+  const Branch branch = follow_branch(network, asked, values, {.low = kFrom, .high = 1.2, .start = kFrom});
+  REQUIRE(branch.reason.empty());
+  CHECK(branch.last_end == BranchEnd::unbounded);
+  CHECK(of_kind(branch, SpecialKind::jump).empty());
+  // Stuck, the forced motion of two masses is
+  //   x = (K - r^2) / D,  y = K / D,  D = r^4 - (1 + 2 K) r^2 + K,  K = 1 + k_j
+  // and it slips from where k_j (y - x) is the limit: D = k_j r^2 / limit.
+  const double K = 1.0 + kJoint, sum = 1.0 + 2.0 * K + kJoint / kLimit;
+  const double slips_from = std::sqrt(0.5 * (sum - std::sqrt(sum * sum - 4.0 * K)));
+  const std::vector<SpecialPoint> grazings = of_kind(branch, SpecialKind::grazing);
+  REQUIRE_FALSE(grazings.empty());
+  CHECK(grazings.front().at.parameter == Approx(slips_from).epsilon(kExact));
+  PeriodicResponse response(network, asked);
+  std::vector<double> quantities(asked.size());
+  int slipping = 0;
+  for (const BranchPoint& point : branch.points) {
+    if (point.parameter <= slips_from || point.parameter > 0.5) continue;
+    INFO("r = " << point.parameter);
+    response.set_values(values(point.parameter));
+    REQUIRE(response.solve().status == Status::ok);
+    response.quantities(quantities);
+    CHECK(point.quantities[0] == Approx(quantities[0]).epsilon(kPrinted));
+    ++slipping;
+  }
+  CHECK(slipping > 50);
+}
+
+// A mass on a spring and a slider with a spring, without damping: stuck, any motion at the natural frequency
+// may be added where that is three times the excitation's.
+TEST_CASE("A branch ends where a family of orbits has one value of the parameter, and says so") {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"slider", ElementType::jenkins, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  constexpr double kJoint = 2.716;
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0},
+                         .element = {1.0, kJoint},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.8}};
+  };
+  const Branch branch = follow_branch(network, asked, values, {.low = 0.4, .high = 3.0, .start = 0.4});
+  REQUIRE(branch.reason.empty());
+  CHECK(branch.last_end == BranchEnd::family);
+  CHECK(branch.points.back().parameter == Approx(std::sqrt(1.0 + kJoint) / 3.0).epsilon(kExact));
+  CHECK(of_kind(branch, SpecialKind::fold).empty());  // all laws are monotone: nothing turns back
+}
+
 }  // namespace
 }  // namespace frahm::periodic::branch_test
