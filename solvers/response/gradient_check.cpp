@@ -52,13 +52,10 @@ double without_turns(double difference, Measure measure) {
 }
 
 struct Difference {
-  double step, value;
-};
-// The differences of one quantity, at steps that halve.
-struct Differences {
-  std::vector<Difference> list;
+  double step = 0.0, value = 0.0;
   double noise = 0.0;  // change of the quantity when its search starts elsewhere
 };
+using Differences = std::vector<Difference>;  // of one quantity, at steps that halve
 
 // For each quantity. own: the events at the parameter's own value.
 std::vector<Differences> central_differences(PeriodicResponse& response,
@@ -75,27 +72,43 @@ std::vector<Differences> central_differences(PeriodicResponse& response,
     for (std::size_t i = 0; i < count; ++i) {
       const double change = without_turns(more[i] - less[i], quantities[i].measure);
       if (!std::isfinite(change)) continue;
-      result[i].list.push_back({step, change / (above - below)});
       const double noise = std::abs(without_turns(more[i] - again[i], quantities[i].measure));
-      result[i].noise = std::max(result[i].noise, noise);
+      result[i].push_back({step, change / (above - below), noise});
     }
   }
   return result;
 }
 
+// How far the difference over the shortest step may be off, by the one before. Longer steps may have passed a
+// kink: what is extrapolated from them has to lie within.
+double uncertainty_of_shortest(std::span<const Difference> differences) {
+  constexpr double kWide = 4.0;
+  if (differences.size() < 2) return kNone;
+  const Difference &last = differences.back(), &before = differences[differences.size() - 2];
+  return kWide * (std::abs(last.value - before.value) + last.noise / last.step);
+}
+
 // Neville's scheme in the square of the step; the result is the entry that differs least from its parents.
-// noise: of the quantity itself, which a difference over a short step magnifies.
+// noise: of the quantity itself, at least; a difference over a short step magnifies it.
 void extrapolate(std::span<const Difference> differences, double noise, DerivativeCheck& check) {
   check.difference = check.uncertainty = kNone;
+  if (differences.empty()) return;
+  const Difference shortest = differences.back();
+  const double within = uncertainty_of_shortest(differences);
+  if (std::isfinite(within)) {
+    check.difference = shortest.value;
+    check.uncertainty = within + noise / shortest.step;
+  }
   std::vector<double> before, now;
-  for (const auto& [step, difference] : differences) {
+  for (const auto& [step, difference, own_noise] : differences) {
     now.assign(1, difference);
     double factor = 4.0;
     for (std::size_t j = 1; j <= before.size(); ++j, factor *= 4.0) {
       now.push_back((factor * now[j - 1] - before[j - 1]) / (factor - 1.0));
-      const double change =
-          noise / step + std::max(std::abs(now[j] - now[j - 1]), std::abs(now[j] - before[j - 1]));
-      if (std::isfinite(change) && !(change >= check.uncertainty)) {
+      const double change = std::max(noise, own_noise) / step +
+                            std::max(std::abs(now[j] - now[j - 1]), std::abs(now[j] - before[j - 1]));
+      if (std::isfinite(change) && !(change >= check.uncertainty) &&
+          !(std::abs(now[j] - shortest.value) > within)) {
         check.difference = now[j];
         check.uncertainty = change;
       }
@@ -109,8 +122,8 @@ double noise_of(std::span<const Difference> differences, double derivative) {
   constexpr std::size_t kShortest = 4;
   double noise = 0.0;
   const std::size_t from = differences.size() > kShortest ? differences.size() - kShortest : 0;
-  for (const auto& [step, difference] : differences.subspan(from)) {
-    const double off = step * std::abs(difference - derivative);
+  for (const Difference& each : differences.subspan(from)) {
+    const double off = each.step * std::abs(each.value - derivative);
     if (std::isfinite(off)) noise = std::max(noise, off);
   }
   return noise;
@@ -146,9 +159,8 @@ GradientCheck check_gradient(const mechanics::Network& network, const std::vecto
     const auto differences = central_differences(response, quantities, own, parameters[d]);
     for (std::size_t i = 0; i < count; ++i) {
       if (!why_none[i].empty()) continue;
-      const auto& [list, noise] = differences[i];
-      extrapolate(list, noise, column[i]);
-      extrapolate(list, std::max(noise, noise_of(list, column[i].difference)), column[i]);
+      extrapolate(differences[i], 0.0, column[i]);
+      extrapolate(differences[i], noise_of(differences[i], column[i].difference), column[i]);
     }
   }
   return result;

@@ -10,7 +10,6 @@
 #include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance.hpp"
 #include "studies/provenance/stored_study.hpp"
-#include "studies/provenance/study_changes.hpp"
 #include "studies/reading/keys/repetition.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/study/toml_building.hpp"
@@ -75,8 +74,9 @@ std::vector<std::string> changes_between(const Study& kept, const Study& now) {
 }
 
 constexpr const char* nothing_found =
-    "nothing in the study itself: the content of a file that it reads, or what this version of frahm "
-    "computes";
+    "no key by itself: a unit that another key inherits, the content of a file that the study reads, or what "
+    "this "
+    "version of frahm computes";
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

@@ -48,7 +48,7 @@ TEST_CASE("what has changed of a map is named: what it records, its axes, how it
         Lines{"[output]: resonances: new, [\"main\"]"});
   CHECK(changes(map, with(map, "points = 11", "points = 12")) == Lines{"axis \"r\": points: 11, now 12"});
   CHECK(changes(map, map + "spacing = \"log\"\n") == Lines{"axis \"r\": spacing: new, \"log\""});
-  CHECK(changes(map, with(map, "f = 0.2", "f = 0.3")).front().starts_with("nothing in the study itself"));
+  CHECK(changes(map, with(map, "f = 0.2", "f = 0.3")).front().starts_with("no key by itself"));
 }
 
 TEST_CASE("a coordinate that is new or has another value is named, with its words where words count") {
@@ -108,7 +108,7 @@ TEST_CASE("a value in another unit is the same value; a changed one is told as t
                     rpm = "unit = \"rpm\"\nfrom = 60\nto = 120\npoints = 3\n";
   CHECK(changes(in("80", hertz), in("{ value = 80000, unit = \"g\" }", rpm))
             .front()
-            .starts_with("nothing in the study itself"));
+            .starts_with("no key by itself"));
   // 181 values of which the last bits differ.
   CHECK(changes(in("80", "unit = \"rpm\"\nfrom = 300\nto = 1200\npoints = 181\n"),
                 in("80", "unit = \"Hz\"\nfrom = 5\nto = 20\npoints = 181\n")) ==
