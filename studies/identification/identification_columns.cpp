@@ -26,7 +26,7 @@ void add_estimates(const Study& study, const Identification& found, const std::s
     columns.add_number(name + "_low", unit, "lower end of the 95 % interval of " + name, estimate.low);
     columns.add_number(name + "_high", unit, "upper end of the 95 % interval of " + name, estimate.high);
     columns.add_number(name + "_standard_error", unit, "standard error of " + name, estimate.standard_error);
-    columns.add_number(name + "_degrees_of_freedom", "1", "degrees of freedom behind the interval of " + name,
+    columns.add_number(name + "_degrees_of_freedom", "1", "degrees of freedom of the interval of " + name,
                        estimate.degrees_of_freedom);
   }
 }

@@ -26,7 +26,7 @@ void print_design_range(const Study& study, const DesignChoice& design, std::ost
              design.lower / factor, design.upper / factor, has_unit ? " " : "",
              has_unit ? design.unit.text : "", study.parameters.nominal()[design.parameter] / factor);
   if (design.is_scheduled()) fmt::print(out, ", scheduled at {} knots", design.knots.size());
-  fmt::print(out, "{}\n", design.rule ? ", beside a rule" : "");
+  fmt::print(out, "{}\n", design.rule ? ", next to a rule" : "");
 }
 
 std::string rough_time(double seconds) {

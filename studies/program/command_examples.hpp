@@ -13,7 +13,7 @@ A study file describes a system and the axes of a map. From there:
   frahm check study.toml                      check that it is right, and how long it will take
   frahm point study.toml --at r=0.9,f=0.1     the full report of one response
   frahm run study.toml                        the whole map, into study.h5; run again to resume
-  frahm status study.h5                       what a file holds, or how far its run is
+  frahm status study.h5                       what a file holds, or how much of its run is done
   frahm report study.h5                       its page: maps, curves and numbers to look at
 Every command has its own help: frahm run --help. A word of a study or of its results: frahm explain WORD
 
@@ -81,7 +81,7 @@ Examples:
 inline constexpr const char* status_examples = R"(
 Examples:
   frahm status rig_atlas.h5                   axes, quantities, how it was made, the points that failed
-  frahm status running.h5                     how far a run in progress is, from its logs)";
+  frahm status running.h5                     how much of a run in progress is done, from its logs)";
 
 inline constexpr const char* verify_examples = R"(
 Examples:

@@ -73,7 +73,7 @@ void add_progress(CLI::App& command, engine::ProgressStyle& style) {
   command
       .add_option_function<std::string>(
           "--progress", [&style, styles](const std::string& word) { style = styles.at(word); },
-          "auto, plain, json or none")
+          "how to show progress (default: auto)")
       ->type_name("auto|plain|json|none")
       ->check(among({"auto", "plain", "json", "none"}))
       ->take_last();
@@ -108,7 +108,8 @@ void add_run(CLI::App& program, CommandLine& line) {
       ->type_name("RESULT");
   run->add_flag("--fresh", options.run.fresh,
                 "start from the beginning; an earlier result and its logs are lost");
-  run->add_option("--time-budget", line.time_budget, "stop after 90s, 50m, 2h or 1d")->type_name("TIME");
+  run->add_option("--time-budget", line.time_budget, "stop after TIME, such as 90s, 50m, 2h or 1d")
+      ->type_name("TIME");
   run->add_option("--rank-silence", line.rank_silence,
                   "continue without an MPI rank that has been silent for TIME (default 60s)")
       ->type_name("TIME");
@@ -121,9 +122,10 @@ void add_run(CLI::App& program, CommandLine& line) {
 }
 
 void add_check(CLI::App& program, CheckOptions& options, Action& action) {
-  CLI::App* check = add_command(program, "check",
-                                "validate a study and print its size, its time and its natural frequencies",
-                                help::check_examples);
+  CLI::App* check =
+      add_command(program, "check",
+                  "validate a study and print its size, its expected run time and its natural frequencies",
+                  help::check_examples);
   add_study(*check, options.study);
   add_set(*check, options.set);
   add_threads(*check, options.threads);
@@ -138,7 +140,7 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
                    "predict time and efficiency on up to N MPI ranks with --threads each (0: one)")
       ->type_name("N")
       ->check(whole_within(1, 100'000));
-  check->add_flag("--all", options.all, "print every mode, also of a large system");
+  check->add_flag("--all", options.all, "print every mode, even of a large system");
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
 }
 
@@ -146,7 +148,9 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
   CLI::App* point =
       add_command(program, "point", "print the full report of one response", help::point_examples);
   add_study(*point, options.study);
-  point->add_option("--at", options.at, "name=value,...; other parameters as in the study")
+  point
+      ->add_option("--at", options.at,
+                   "the point, as name=value,...; other parameters keep their values in the study")
       ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
   add_set(*point, options.set);
@@ -157,32 +161,35 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
       "print exact derivatives with respect to the parameters, with central differences next to them");
   point
       ->add_option("--path", options.path,
-                   "fastest: from the phases of its events where that is proved; general: always by shooting")
+                   "fastest: from the phases of the orbit's events where that is proved, otherwise by "
+                   "shooting; general: always by shooting")
       ->type_name("fastest|general")
       ->check(among({"fastest", "general"}))
       ->take_last();
   point->add_flag("--responses", options.responses,
                   "print every stable response that was found: state at omega t = 0, peaks, multipliers");
   point->add_flag("--json", options.json, "print the report as one JSON object");
-  point->add_flag("--all", options.all, "print every quantity and mode, also of a large system");
+  point->add_flag("--all", options.all, "print every quantity and mode, even of a large system");
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
 }
 
 void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action) {
   CLI::App* branch =
-      add_command(program, "branch", "follow a response along a parameter, stable or not, through folds",
+      add_command(program, "branch", "follow a response, stable or not, along a parameter and through folds",
                   help::branch_examples);
   add_study(*branch, options.study);
-  branch->add_option("--along", options.along, "the parameter to follow, a number of the study")
+  branch
+      ->add_option("--along", options.along,
+                   "the parameter along which to follow the response (any number of the study)")
       ->type_name("NAME")
       ->required();
   branch->add_option("--from", options.from, "start of its range (default: that of its axis)")
       ->type_name("VALUE");
   branch->add_option("--to", options.to, "end of its range (default: that of its axis)")->type_name("VALUE");
   branch
-      ->add_option(
-          "--at", options.at,
-          "name=value,...; other parameters as in the study; for the followed parameter, where to start")
+      ->add_option("--at", options.at,
+                   "values of other parameters, as name=value,... (default: as in the study); a value of the "
+                   "--along parameter is the place to start")
       ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
   add_set(*branch, options.set);
@@ -204,15 +211,17 @@ void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action
 }
 
 void add_status(CLI::App& program, std::filesystem::path& file, Action& action) {
-  CLI::App* status = add_command(program, "status", "print what a result file holds, or how far its run is",
-                                 help::status_examples);
+  CLI::App* status =
+      add_command(program, "status", "print what a result file holds, or how much of its run is done",
+                  help::status_examples);
   status->add_option("FILE", file, "result file, finished or not")->required();
   status->callback([&] { action = [&](std::ostream& out) { return status_command(file, out); }; });
 }
 
 void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
-  CLI::App* merge = add_command(program, "merge", "join what run --shard computed into the result file",
-                                help::merge_examples);
+  CLI::App* merge =
+      add_command(program, "merge", "join the parts that run --shard computed, and write the result file",
+                  help::merge_examples);
   merge->add_option("FILE", options.output, "result file to make")->required();
   merge->add_option("SHARD", options.logs, "shard logs, *.frahm-log (default: those next to FILE)");
   merge->add_flag("--partial", options.partial,
@@ -223,9 +232,10 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
 }
 
 void add_export(CLI::App& program, ExportOptions& options, Action& action) {
-  CLI::App* command = add_command(
-      program, "export", "write a result as CSV, a study of an optimum or a model, or simulated measurements",
-      help::export_examples);
+  CLI::App* command =
+      add_command(program, "export",
+                  "write a result as CSV, a study with tuned or identified values, or simulated measurements",
+                  help::export_examples);
   command->add_option("FILE", options.file, "result file")->required();
   command
       ->add_option("--group", options.group,
@@ -253,7 +263,8 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   DataOptions& data = options.data;
   command
       ->add_option("--data", data.output,
-                   "write simulated measurements of a study (FILE may be one) to this CSV file; - for stdout")
+                   "write simulated measurements to this CSV file (- for stdout); the argument FILE may then "
+                   "be a study")
       ->type_name("FILE");
   add_set(*command, data.set);
   command->add_option("--at", data.at, "with --data: the point of a periodic response, name=value,...")
@@ -269,13 +280,15 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
       ->type_name("TIME");
   command
       ->add_option("--noise", data.noise,
-                   "with --data: standard deviation of the noise, \"1%\" of each column's own or \"0.1 mm\"")
+                   "with --data: standard deviation of the noise, as \"1%\" (of the standard deviation of "
+                   "each column) or as \"0.1 mm\"")
       ->type_name("NOISE");
   command->add_option("--seed", data.seed, "with --data: seed of the noise (default 1)")->type_name("N");
   command
-      ->add_option("--columns", data.columns,
-                   "with --data: name,... of <mass>_displacement, _velocity, _acceleration, for a periodic "
-                   "response also <element>_force (default: the displacements)")
+      ->add_option(
+          "--columns", data.columns,
+          "with --data: columns to write: <mass>_displacement, _velocity, _acceleration, and for a periodic "
+          "response also <element>_force (default: the displacements)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -293,8 +306,9 @@ void add_report(CLI::App& program, ReportOptions& options, Action& action) {
       ->type_name("FILE");
   command
       ->add_option("--quantities", options.quantities,
-                   "for a map: name,... to show, or floor*_peak (default: those of the study's [report], "
-                   "otherwise peaks, strokes, regimes, stops, energy shares, differences and status)")
+                   "for a map: quantities to show, by name or by a pattern such as floor*_peak (default: "
+                   "those of the study's [report], otherwise peaks, strokes, regimes, stops, energy shares, "
+                   "differences and status)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -319,7 +333,8 @@ void add_explain(CLI::App& program, std::string& word, Action& action) {
   CLI::App* command =
       add_command(program, "explain", "print what a key, a quantity, a unit, a status or an exit code means",
                   help::explain_examples);
-  command->add_option("WORD", word, "the key of a study, quantity, unit, status, outcome or exit code")
+  command
+      ->add_option("WORD", word, "a key of a study, a quantity, a unit, a status, an outcome or an exit code")
       ->required();
   command->callback([&] { action = [&](std::ostream& out) { return explain_command(word, out); }; });
 }

@@ -107,7 +107,7 @@ constexpr ResultWord all_words[] = {
     {"objective", of_tuning,
      "objective of the optimum: the worst peak over band and scenarios, mean square or variance"},
     {"constant_objective", of_tuning, "objective of the best constant design"},
-    {"path_bound", of_tuning, "lower bound of the worst peak of every schedule with these constants"},
+    {"path_bound", of_tuning, "lower bound on the worst peak of every schedule with these constants"},
     {"certificate_gap", "tuning, front",
      "(objective - bound) / objective: how much the true worst peak may exceed the bound from the active "
      "frequencies; it certifies the worst peak over the band, but the optimum is a local one"},
@@ -143,7 +143,7 @@ constexpr ResultWord all_words[] = {
     {"peak_*", of_tuning, "where in the band a maximum of the response at the optimum is"},
     {"peak_value", of_tuning, "the response at a maximum, weighted"},
     {"peak_scenario", of_tuning, "scenario of a maximum, from 0"},
-    {"peak_multiplier", of_tuning, "share of a maximum in what holds the optimum"},
+    {"peak_multiplier", of_tuning, "share of a maximum in determining the optimum"},
     {"peak_record", of_tuning, "record of a maximum, from 0"},
     {"peak_before", of_tuning, "the same peak for the design that the study states"},
     {"*_sensitivity", of_tuning, "derivative of a maximum with respect to a design parameter"},

@@ -39,9 +39,10 @@ void require_result(const std::filesystem::path& path) {
   refuse_folder(path);
   if (std::filesystem::exists(path)) return refuse_study(path);
   if (engine::find_logs(path).empty()) throw engine::IoError(path, "there is no such file");
-  throw engine::IoError(path,
-                        "the run that makes it is not finished (frahm status shows how far it is): frahm run "
-                        "completes it, frahm merge --partial makes a file of the finished part of a map");
+  throw engine::IoError(
+      path,
+      "the run that makes it is not finished (frahm status shows how much is done): frahm run completes it, "
+      "frahm merge --partial makes a file of the finished part of a map");
 }
 
 ResultKind kind_of(const results::MapReader& result) {

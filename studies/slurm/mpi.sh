@@ -4,8 +4,9 @@
 #
 #   sbatch --ntasks=4 --cpus-per-task=8 mpi.sh study.toml map.h5
 #
-# What follows map.h5 is given to `frahm run` as it stands. `frahm status map.h5` tells how far it is. A rank that
-# dies ends the job; submitted again, it goes on from what all ranks have kept, on as many ranks as you like.
+# What follows map.h5 is given to `frahm run` as it stands. `frahm status map.h5` shows how much of it is done. A
+# rank that dies ends the job; submitted again, it goes on from what all ranks have kept, on as many ranks as you
+# like.
 # Options of sbatch on the command line win over the lines below.
 #SBATCH --job-name=frahm
 #SBATCH --ntasks=2

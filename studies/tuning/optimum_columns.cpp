@@ -32,7 +32,7 @@ void add_numbers(const TuningAbout& about, GroupColumns& columns) {
   if (about.tune.has_schedule())
     columns.add_number(
         "path_bound", unit,
-        "lower bound of the worst peak of every schedule with these constants, as far as a grid shows",
+        "lower bound on the worst peak of every schedule with these constants, as far as a grid shows",
         about.optimum.path_bound);
   columns.add_number("certificate_gap", "1",
                      "(objective - bound) / objective: how far the worst peak over the band exceeds the "
@@ -142,7 +142,7 @@ void add_peaks(const TuningAbout& about, GroupColumns& columns) {
   if (about.tune.peaks) add_records_of_peaks(about, columns);
   columns.add("peak_value", unit, "weighted response there", "peak", values);
   columns.add_count("peak_scenario", "scenario, from 0", "peak", scenarios);
-  columns.add("peak_multiplier", "1", "share of the maximum in what holds the optimum", "peak", multipliers);
+  columns.add("peak_multiplier", "1", "share of the maximum in determining the optimum", "peak", multipliers);
   for (std::size_t i = 0; i < about.designs.size(); ++i) {
     const double factor = about.designs[i].choice.unit.si_factor;
     std::vector<double> slopes;

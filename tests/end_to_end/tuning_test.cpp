@@ -240,7 +240,7 @@ TEST_CASE("check tells a tuning's variables, and point its response anywhere") {
   const std::string study = folder.write("tmd.toml", scheduled);
   const Outcome check = frahm({"check", study});
   CHECK(check.code == 0);
-  CHECK_THAT(check.out, Catch::Contains("scheduled at 4 knots, beside a rule") &&
+  CHECK_THAT(check.out, Catch::Contains("scheduled at 4 knots, next to a rule") &&
                             Catch::Contains("variables             5") && Catch::Contains("Undamped modes"));
   const Outcome point = frahm({"point", study, "--at", "r=0.95,f=0.9"});
   CHECK(point.code == 0);
