@@ -70,7 +70,8 @@ void print_array_job(const ArrayJob& job, std::ostream& out) {
                  : "");
   fmt::print(out, "  sbatch --array=0-{} --cpus-per-task=1 --wrap {}\n", tasks - 1,
              shell_word(run_of_task(job, output, tasks)));
-  fmt::print(out, "  frahm status {}   # how far the run is, and which tasks to submit again\n", output);
+  fmt::print(out, "  frahm status {}   # how much of the run is done, and which tasks to submit again\n",
+             output);
   fmt::print(out, "  frahm merge {}    # one file from all shards\n", output);
 }
 
