@@ -90,8 +90,7 @@ def check_tuning(program, source):
         runs = Runs(program, folder, study_path)
         one = runs.finish(output, "--threads", "1")
         assert one["optimum/start_objective"][1] == (32,)
-        for _ in range(2):
-            assert runs.finish(output, "--threads", "2") == one
+        assert runs.finish(output, "--threads", "2") == one
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")
         runs.killed(one, output, signal.SIGTERM, "--threads", "1")
 
@@ -143,9 +142,7 @@ orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { 
             whole[threads] = merged(threads)
         assert whole["1"] == whole["2"] == whole["5"]
         assert whole["1"] != part
-        runs = Runs(program, folder, study_path)
-        assert runs.finish(output, "--threads", "2") == whole["1"]
-        runs.killed(whole["1"], output, signal.SIGKILL, "--threads", "2")
+        Runs(program, folder, study_path).killed(whole["1"], output, signal.SIGKILL, "--threads", "2")
 
 
 def check_motions(program, source):
@@ -263,9 +260,8 @@ def check_several_responses(program, source):
             runs = Runs(program, folder, study_path)
             one = runs.finish(output, "--threads", "1")
             assert one["coexisting"][1] in [(8, 71), (60, 46)]
-            for threads in "2", "5":
-                assert runs.finish(output, "--threads", threads) == one, (name, threads)
-            runs.killed(one, output, signal.SIGKILL, "--threads", "2")
+            assert runs.finish(output, "--threads", "5") == one, name
+        # Kills of such maps: those of check_assembly and main, which resume by the same log.
 
 
 def main():
@@ -283,8 +279,7 @@ def main():
         runs = Runs(program, folder, study_path)
         one = runs.finish(output, "--threads", "1")
         assert len(one) > 10 and one["main_peak"][1] == (6, 25, 241)
-        for threads in "2", "5":
-            assert runs.finish(output, "--threads", threads) == one, threads
+        assert runs.finish(output, "--threads", "5") == one
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")
         runs.killed(one, output, signal.SIGTERM, "--threads", "1")
     print("maps, motions over records, an assembly and tunings on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
