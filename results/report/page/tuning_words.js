@@ -232,7 +232,7 @@ function heldSentences(tuning) {
   const held = holders(tuning);
   return held.length
     ? [`The design is held by ${held.join("; ")}.`]
-    : ["Neither a bound nor a limit holds the design: it is free on all sides."];
+    : ["Neither a bound nor a limit determines the design: it is free on all sides."];
 }
 
 function knotSentences({ parameters }) {
@@ -260,17 +260,17 @@ function slopeSentences({ parameters, band }) {
     .map((parameter) => {
       const steep = steepestPieces(parameter),
         all = parameter.knots.length - 1;
-      const where = steep > 0 ? `at ${steep} of ${all} pieces, which also holds the design` : "nowhere";
+      const where = steep > 0 ? `at ${steep} of ${all} pieces, which also determines the design` : "nowhere";
       return `${symbolText(parameter.name)} changes as fast as allowed (${slopeText(parameter, band)}) ${where}.`;
     });
 }
 
-const touching = 0.999; // share of the constant's response, from which the constant holds the design
+const touching = 0.999; // share of the constant's response, from which the constant determines the design
 
 function dominateSentences(tuning) {
   const nearest = tuning.texts.dominate === "constant" ? nearestToConstant(tuning) : null;
   if (!nearest) return [];
-  const holds = tuning.converged && nearest.ratio > touching ? ", which also holds the design" : "";
+  const holds = tuning.converged && nearest.ratio > touching ? ", which also determines the design" : "";
   return [
     `The study requires a response nowhere above that of the best constant design: it is at most ` +
       `${percentText(100 * nearest.ratio, 6)} of it, at ${placeText(tuning, nearest.at)}${holds}.`,

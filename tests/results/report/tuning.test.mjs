@@ -135,7 +135,7 @@ test("in every scenario means in the worst of them", () => {
   close(share, 0.5, 1e-6);
 });
 
-test("the sentences tell reduction, band, certificate and what holds the design", () => {
+test("the sentences tell reduction, band, certificate and what determines the design", () => {
   const text = whatItMeans(tuningOf(minimax())).flat().join(" ");
   assert.match(text, /Worst main peak over 10 to 20 rad\/s of ω: 25 mm\./);
   assert.match(text, /Against the design before \(100 mm\): 75 % less \(−12 dB\)\./);
@@ -318,9 +318,9 @@ test("a schedule tells where it is as steep as it may be, and one that dominates
   const text = told(scheduled, 1, { dominate: "constant" });
   assert.match(
     text,
-    /k changes as fast as allowed \(100 N\/m per rad\/s of ω\) at 2 of 3 pieces, which also holds the design\./,
+    /k changes as fast as allowed \(100 N\/m per rad\/s of ω\) at 2 of 3 pieces, which also determines the design\./,
   );
-  assert.match(text, /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which also holds the design\./);
+  assert.match(text, /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which also determines the design\./);
   assert.doesNotMatch(told(scheduled), /nowhere above/);
   assert.ok(Number.isNaN(steepestPieces(tuningOf(minimax()).parameters[0])));
 });

@@ -389,7 +389,7 @@ export function tuningParts(record) {
       first ? [...figureCards([first], record, "wide"), ...figureCards(others, record)] : [],
     ),
     ...sectionOf("Trade-off", [...figureCards(frontFigures(tuning), record), frontTable(tuning)]),
-    ...sectionOf("What holds the design", [
+    ...sectionOf("What determines the design", [
       ...peaksTable(tuning),
       ...boundsTable(tuning),
       ...limitsTable(tuning),
