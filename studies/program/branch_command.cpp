@@ -29,26 +29,18 @@
 #include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/study/assignment.hpp"
+#include "studies/reading/study/named_parameter.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_units.hpp"
 #include "studies/reading/system/unfit_elements.hpp"
-#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
 
 std::size_t parameter_along(const Study& study, const std::string& name) {
-  const auto found = study.parameters.find(name);
-  if (!found) {
-    throw StudyError(rules::unknown_name, "--along {}: there is no such parameter{}", name,
-                     suggestion(name, study.parameters.names()));
-  }
-  if (!study.parameters.list[*found].is_number()) {
-    throw StudyError(rules::computed_parameter,
-                     "--along {}: it is computed from other parameters; a branch needs one that is a number",
-                     name);
-  }
-  return *found;
+  if (const auto refusal = why_not_a_number(study.parameters, name, "a branch needs one that is a number"))
+    throw StudyError(refusal->rule, "--along {}: {}", name, refusal->text);
+  return *study.parameters.find(name);
 }
 
 bool is_result(const std::filesystem::path& output) {

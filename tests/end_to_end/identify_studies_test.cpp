@@ -249,7 +249,7 @@ TEST_CASE(
   const std::string before = text_of(folder / "small.h5");
   const runs::Outcome refused = runs::frahm({"run", study, "-o", folder / "small.h5"});
   CHECK(refused.code == 5);
-  CHECK_THAT(refused.err, Catch::Contains("the content of a file that it reads"));
+  CHECK_THAT(refused.err, Catch::Contains("the content of a file that the study reads"));
   CHECK(text_of(folder / "small.h5") == before);
   CHECK(runs::frahm({"run", study, "-o", folder / "small.h5", "--fresh"}).code == 0);
   const runs::Outcome over = runs::frahm({"run", study, "-o", folder / "record.csv", "--fresh"});

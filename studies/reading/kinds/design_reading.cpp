@@ -30,7 +30,8 @@ void check_bounds(const TomlSection& section, double lower, double upper) {
 }
 
 std::size_t read_design_parameter(const TuneReading& reading, const TomlSection& section) {
-  const std::size_t parameter = read_number_parameter(reading, section, "parameter", "a design parameter");
+  const std::size_t parameter = read_number_parameter(section, reading.study.parameters, "parameter",
+                                                      "a design parameter needs one that is a number");
   const std::string& name = reading.study.parameters.list[parameter].name;
   const auto& designs = reading.choice.designs;
   const auto twice = std::find_if(designs.begin(), designs.end(),
@@ -130,7 +131,7 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
   DesignChoice design;
   design.position = section.position();
   design.parameter = read_design_parameter(reading, section);
-  design.unit = read_parameter_unit(reading, section, design.parameter);
+  design.unit = read_parameter_unit(reading.context, section, reading.study, design.parameter);
   design.lower = section.number("lower") * design.unit.si_factor;
   design.upper = section.number("upper") * design.unit.si_factor;
   check_bounds(section, design.lower, design.upper);
@@ -161,8 +162,9 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
     const TomlSection range(reading.context.source, *value, fmt::format("{}: band", section.where()),
                             "constraint.band");
     const auto& whole = reading.choice.band;  // if there is none, require_band() says so
-    const UsualUnit unit = whole && range.find("unit") ? read_parameter_unit(reading, range, whole->parameter)
-                                                       : whole.value_or(BandChoice{}).unit;
+    const UsualUnit unit = whole && range.find("unit")
+                               ? read_parameter_unit(reading.context, range, reading.study, whole->parameter)
+                               : whole.value_or(BandChoice{}).unit;
     limit.band = read_range(range, unit.si_factor);
   }
   reading.choice.limits.push_back(std::move(limit));

@@ -6,6 +6,7 @@
 
 #include "studies/reading/kinds/identify_reading.hpp"
 #include "studies/reading/quantities/parameters.hpp"
+#include "studies/reading/study/named_parameter.hpp"
 #include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_values.hpp"
@@ -89,45 +90,18 @@ bool system_depends_on(const Study& study, std::size_t parameter) {
 }
 
 std::size_t read_parameter(const IdentifyReading& reading, const TomlSection& section) {
-  const Parameters& parameters = reading.study.parameters;
-  const std::string name = section.text("parameter");
-  const auto index = parameters.find(name);
-  if (!index)
-    section.fail(rules::unknown_name, "parameter", "no parameter is called \"{}\"{}", name,
-                 suggestion(name, parameters.names()));
-  if (!parameters.list[*index].is_number())
-    section.fail(rules::computed_parameter, "parameter",
-                 "\"{}\" is computed from other parameters; only one that is a number can be identified",
-                 name);
+  const std::size_t index = read_number_parameter(section, reading.study.parameters, "parameter",
+                                                  "only one that is a number can be identified");
+  const std::string& name = reading.study.parameters.list[index].name;
   for (const IdentifiedParameter& other : reading.choice.parameters) {
-    if (other.parameter == *index)
+    if (other.parameter == index)
       section.fail(rules::given_twice, "parameter", "\"{}\" is already identified (line {})", name,
                    other.position.line);
   }
-  if (!system_depends_on(reading.study, *index))
+  if (!system_depends_on(reading.study, index))
     section.fail(rules::wrong_dependence, "parameter",
                  "no value of the system or of its start depends on \"{}\"", name);
-  return *index;
-}
-
-UsualUnit read_usual_unit(IdentifyReading& reading, const TomlSection& section, std::size_t parameter) {
-  if (reading.study.dimensionless) {
-    if (const TomlValue* unit = section.find("unit")) read_unit(reading.context, section.where(), *unit);
-    return {"1", 1.0};
-  }
-  Parameter& definition = reading.study.parameters.list[parameter];
-  UsualUnit usual = usual_unit(reading.study, parameter);
-  if (const TomlValue* value = section.find("unit")) {
-    const auto unit = read_unit(reading.context, section.where(), *value);
-    try {
-      usual = {unit->text, si_factor(definition, *unit)};
-      definition.unit_of_range = unit;
-    } catch (const UnitError& error) {
-      section.fail(error.rule(), "unit", "{}", error.what());
-    }
-  }
-  if (usual.text.empty() && definition.quantity) usual.text = si_unit(*definition.quantity);
-  return usual;
+  return index;
 }
 
 // Whether a network value that may not be negative is this parameter.
@@ -177,7 +151,7 @@ void read_identified_parameters(IdentifyReading& reading, const TomlSection& sec
   IdentifiedParameter identified;
   identified.position = section.position();
   identified.parameter = read_parameter(reading, section);
-  identified.unit = read_usual_unit(reading, section, identified.parameter);
+  identified.unit = read_parameter_unit(reading.context, section, reading.study, identified.parameter);
   if (reading.choice.method == Method::grey_box) {
     if (section.find("estimate"))
       section.fail(rules::key_without_use, "estimate",

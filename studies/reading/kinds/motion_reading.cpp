@@ -12,7 +12,6 @@
 #include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/network_reading.hpp"
 #include "studies/reading/system/unfit_elements.hpp"
-#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -24,23 +23,14 @@ constexpr std::int64_t samples_of_a_transient = 1001;  // smooth to the eye over
 InitialValues read_initial_values(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
                             label(table, "initial values of", "node", "initial", number), "initial");
-  const std::string name = section.text("node");
   const auto& network = reading.result.network;
-  const auto node = find_node(network, name);
-  if (!node) {
-    section.fail(rules::unknown_name, "node", "no mass is called \"{}\"{}", name,
-                 suggestion(name, network.masses));
-  }
-  if (node->kind != NodeKind::mass) {
-    section.fail(rules::wrong_node, "node", "\"{}\" is {}; only a mass has initial values", name,
-                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
-  }
+  const mechanics::Node node = read_mass(section, network, "node", "only a mass has initial values");
   if (!section.find("displacement") && !section.find("velocity"))
     section.fail_here(rules::one_of_two_keys, "a displacement, a velocity or both are needed");
-  const bool turns = mechanics::rotates(network, node->index);
+  const bool turns = mechanics::rotates(network, node.index);
   const Quantity displacement = turns ? Quantity::angle : Quantity::length;
   const Quantity velocity = turns ? Quantity::angular_frequency : Quantity::speed;
-  return {node->index, read_value(reading, section, "displacement", displacement, 0.0),
+  return {node.index, read_value(reading, section, "displacement", displacement, 0.0),
           read_value(reading, section, "velocity", velocity, 0.0)};
 }
 

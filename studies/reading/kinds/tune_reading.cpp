@@ -75,7 +75,7 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
 
 // As with an axis, a range without a unit is SI, and refused if the parameter is given in another unit.
 UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
-  UsualUnit unit = read_parameter_unit(reading, section, parameter);
+  UsualUnit unit = read_parameter_unit(reading.context, section, reading.study, parameter);
   if (!section.find("unit") && unit.si_factor != 1.0) {
     section.fail_here(
         rules::missing_unit,
@@ -104,7 +104,8 @@ void read_band(TuneReading& reading, const TomlSection& section) {
   const TomlSection band(reading.context.source, *value, "[tune]: band", "tune.band");
   BandChoice choice;
   choice.position = band.position();
-  choice.parameter = read_number_parameter(reading, band, "parameter", "a band");
+  choice.parameter =
+      read_number_parameter(band, reading.study.parameters, "parameter", "a band needs one that is a number");
   const Study& study = reading.study;
   const auto inputs = study.parameters.inputs_of(study.values.omega.expression.reads());
   if (std::find(inputs.begin(), inputs.end(), choice.parameter) == inputs.end()) {
@@ -233,37 +234,6 @@ UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& sect
   if (description.unit == si_unit(Quantity::angular_frequency))
     return {unit->text, si_factor(*unit, Quantity::angular_frequency)};
   return {unit->text, unit->scale / own.scale};
-}
-
-UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
-  Parameter& definition = reading.study.parameters.list[parameter];
-  UsualUnit usual = usual_unit(reading.study, parameter);
-  if (const TomlValue* value = section.find("unit")) {
-    const auto unit = read_unit(reading.context, section.where(), *value);
-    try {
-      if (unit) usual = {unit->text, si_factor(definition, *unit)};
-      definition.unit_of_range = unit;
-    } catch (const UnitError& error) {
-      section.fail(error.rule(), "unit", "{}", error.what());
-    }
-  }
-  if (reading.study.dimensionless) return {"1", 1.0};
-  if (usual.text.empty() && definition.quantity) usual.text = si_unit(*definition.quantity);
-  return usual;
-}
-
-std::size_t read_number_parameter(const TuneReading& reading, const TomlSection& section,
-                                  const std::string& key, const char* role) {
-  const Parameters& parameters = reading.study.parameters;
-  const std::string name = section.text(key);
-  const auto index = parameters.find(name);
-  if (!index)
-    section.fail(rules::unknown_name, key, "no parameter is called \"{}\"{}", name,
-                 suggestion(name, parameters.names()));
-  if (!parameters.list[*index].is_number())
-    section.fail(rules::computed_parameter, key,
-                 "\"{}\" is computed from other parameters; {} needs one that is a number", name, role);
-  return *index;
 }
 
 std::vector<double> read_numbers(const TomlSection& section, const std::string& key) {

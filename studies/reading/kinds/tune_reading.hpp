@@ -8,6 +8,7 @@
 
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/quantities/units.hpp"
+#include "studies/reading/study/named_parameter.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_context.hpp"
 #include "studies/reading/study/study_values.hpp"
@@ -34,14 +35,6 @@ periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSect
 // Unit of a quantity's limits: that of the key "unit", otherwise the quantity's own, which is SI.
 UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& section,
                              const periodic::Quantity& quantity);
-
-// Unit of a parameter's numbers: that of the key "unit", which is noted with the parameter, otherwise the
-// usual one.
-UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter);
-
-// A parameter that is a number, by its name at a key. role: "a design parameter", for messages.
-std::size_t read_number_parameter(const TuneReading& reading, const TomlSection& section,
-                                  const std::string& key, const char* role);
 
 // An array of numbers, at least one.
 std::vector<double> read_numbers(const TomlSection& section, const std::string& key);

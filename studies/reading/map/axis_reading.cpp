@@ -9,32 +9,23 @@
 #include "studies/reading/map/sample_axis_reading.hpp"
 #include "studies/reading/study/dimension_check.hpp"
 #include "studies/reading/study/parameter_reading.hpp"
-#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
-std::optional<AxisProblem> axis_problem(const Study& study, const std::string& name) {
-  const auto index = study.parameters.find(name);
-  if (!index) {
-    return AxisProblem{rules::unknown_name, fmt::format("no parameter is called \"{}\"{}", name,
-                                                        suggestion(name, study.parameters.names()))};
-  }
-  if (!study.parameters.list[*index].is_number()) {
-    return AxisProblem{
-        rules::computed_parameter,
-        fmt::format("\"{}\" is computed from other parameters; an axis needs one that is a number", name)};
-  }
+std::optional<Refusal> why_no_axis(const Study& study, const std::string& name) {
+  if (auto refusal = why_not_a_number(study.parameters, name, "an axis needs one that is a number"))
+    return refusal;
   for (const ParameterAxis& other : study.map()->axes) {
-    if (other.parameter != *index) continue;
-    return AxisProblem{rules::given_twice,
-                       fmt::format("\"{}\" already has an axis (line {})", name, other.position.line)};
+    if (other.parameter != *study.parameters.find(name)) continue;
+    return Refusal{rules::given_twice,
+                   fmt::format("\"{}\" already has an axis (line {})", name, other.position.line)};
   }
   return std::nullopt;
 }
 
 std::size_t read_axis_parameter(const TomlSection& section, const Study& study) {
   const std::string name = section.text("parameter");
-  if (const auto problem = axis_problem(study, name))
-    section.fail(problem->rule, "parameter", "{}", problem->text);
+  if (const auto refusal = why_no_axis(study, name))
+    section.fail(refusal->rule, "parameter", "{}", refusal->text);
   return *study.parameters.find(name);
 }
 

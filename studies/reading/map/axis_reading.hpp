@@ -7,20 +7,16 @@
 
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/quantities/units.hpp"
+#include "studies/reading/study/named_parameter.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_context.hpp"
-#include "studies/reading/text/rules.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 
 // The parts of an [[axis]], whichever way its values are given.
 namespace frahm::studies {
 
 // Why a parameter of this name cannot run along an axis: there is none, it is computed, or it has an axis.
-struct AxisProblem {
-  Rule rule;
-  std::string text;
-};
-std::optional<AxisProblem> axis_problem(const Study& study, const std::string& name);
+std::optional<Refusal> why_no_axis(const Study& study, const std::string& name);
 
 // The parameter that the key `parameter` names.
 std::size_t read_axis_parameter(const TomlSection& section, const Study& study);

@@ -38,8 +38,8 @@ std::vector<Wanted> read_parameters_wanted(const TomlSection& section) {
 }
 
 ParameterAxis& add_axis_of(SampleReading& reading, const Wanted& wanted) {
-  if (const auto problem = axis_problem(reading.study, wanted.name))
-    fail_at(reading, wanted, problem->rule, problem->text);
+  if (const auto refusal = why_no_axis(reading.study, wanted.name))
+    fail_at(reading, wanted, refusal->rule, refusal->text);
   ParameterAxis& axis = add_axis(reading, *reading.study.parameters.find(wanted.name));
   axis.position = wanted.position;
   return axis;

@@ -20,8 +20,8 @@ std::string place(const std::string& file, const CsvRow& header, std::size_t col
 
 SampleColumn column_of(const StudyContext& context, Study& study, const ColumnName& heading,
                        const std::string& where) {
-  if (const auto problem = axis_problem(study, heading.name))
-    throw StudyError(problem->rule, "{}: {}", where, problem->text);
+  if (const auto refusal = why_no_axis(study, heading.name))
+    throw StudyError(refusal->rule, "{}: {}", where, refusal->text);
   SampleColumn column;
   column.axis.parameter = *study.parameters.find(heading.name);
   if (context.dimensionless) {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "studies/reading/quantities/units.hpp"
-#include "studies/reading/text/spelling.hpp"
+#include "studies/reading/study/named_parameter.hpp"
 #include "studies/reading/text/trimmed.hpp"
 
 namespace frahm::studies {
@@ -33,16 +33,9 @@ class AssignmentReading {
   }
 
   std::size_t named(std::string_view name) const {
-    const auto parameter = study_.parameters.find(name);
-    if (!parameter) {
-      fail(rules::unknown_name,
-           fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, study_.parameters.names())));
-    }
-    if (!study_.parameters.list[*parameter].is_number()) {
-      fail(rules::computed_parameter,
-           fmt::format("\"{}\" is computed from other parameters; set those instead", name));
-    }
-    return *parameter;
+    if (const auto refusal = why_not_a_number(study_.parameters, name, "set those instead"))
+      fail(refusal->rule, refusal->text);
+    return *study_.parameters.find(name);
   }
 
   // value: a number, with or without a unit after it. Result: SI.

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "studies/reading/study/named_parameter.hpp"
 #include "studies/reading/study/parameter_reading.hpp"
-#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 
@@ -12,16 +12,12 @@ Assignment read_assignment(const StudyContext& context, const Study& study, cons
   const auto fail = [&](Rule rule, Position position, const std::string& message) {
     throw context.source.error_at(rule, position, "{}: {}: {}", where, entry.key, message);
   };
-  const auto index = study.parameters.find(entry.key);
-  if (!index)
-    fail(rules::unknown_name, entry.position,
-         "no parameter has this name" + suggestion(entry.key, study.parameters.names()));
-  const Parameter& parameter = study.parameters.list[*index];
-  if (!parameter.is_number())
-    fail(rules::computed_parameter, entry.position,
-         "it is computed from other parameters; set those instead");
+  if (const auto refusal = why_not_a_number(study.parameters, entry.key, "set those instead"))
+    fail(refusal->rule, entry.position, refusal->text);
+  const std::size_t index = *study.parameters.find(entry.key);
+  const Parameter& parameter = study.parameters.list[index];
   if (why_not) {
-    if (const std::string reason = why_not(*index); !reason.empty())
+    if (const std::string reason = why_not(index); !reason.empty())
       fail(rules::key_without_use, entry.position, reason);
   }
   if (entry.value.as<std::string>())
@@ -29,13 +25,13 @@ Assignment read_assignment(const StudyContext& context, const Study& study, cons
          fmt::format("expected a number, found {}", described(entry.value)));
   const NumberWithUnit number =
       read_number_with_unit(context, fmt::format("{}: {}", where, entry.key), entry.value);
-  double factor = usual_unit(study, *index).si_factor;
+  double factor = usual_unit(study, index).si_factor;
   try {
     if (number.unit) factor = si_factor(parameter, *number.unit);
   } catch (const UnitError& error) {
     fail(error.rule(), number.unit_position, error.what());
   }
-  return {*index, number.value * factor};
+  return {index, number.value * factor};
 }
 
 }  // namespace frahm::studies

@@ -14,7 +14,6 @@
 #include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/network_reading.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
-#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -116,19 +115,10 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
                             label(table, "force on", named, force_path, number), force_path);
   if (section.find("on") && section.find("node"))
     section.fail(rules::given_twice, "node", "the mass is named twice, by \"on\" and \"node\"");
-  const std::string name = section.text(named);
-  const auto& network = reading.result.network;
-  const auto node = find_node(network, name);
-  if (!node) {
-    section.fail(rules::unknown_name, named, "no mass is called \"{}\"{}", name,
-                 suggestion(name, network.masses));
-  }
-  if (node->kind != NodeKind::mass) {
-    section.fail(rules::wrong_node, named, "a force must act on a mass, but \"{}\" is {}", name,
-                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
-  }
+  const mechanics::Node mass =
+      read_mass(section, reading.result.network, named, "a force must act on a mass");
   read_profile(section);
-  read_component(reading, section, {ExcitationKind::force, node->index});
+  read_component(reading, section, {ExcitationKind::force, mass.index});
 }
 
 TomlSection motion_section(const NetworkReading& reading, const TomlValue& table, std::size_t number) {

@@ -17,6 +17,7 @@
 #include "studies/reading/system/network_limits.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
 #include "studies/reading/system/signal_reading.hpp"
+#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -106,6 +107,19 @@ std::optional<Node> find_node(const mechanics::Network& network, const std::stri
   if (const auto index = index_in(network.masses)) return Node{NodeKind::mass, *index};
   if (const auto index = index_in(network.prescribed)) return Node{NodeKind::prescribed, *index};
   return std::nullopt;
+}
+
+mechanics::Node read_mass(const TomlSection& section, const mechanics::Network& network,
+                          const std::string& key, std::string_view need) {
+  const std::string name = section.text(key);
+  const auto node = find_node(network, name);
+  if (!node)
+    section.fail(rules::unknown_name, key, "no mass is called \"{}\"{}", name,
+                 suggestion(name, network.masses));
+  if (node->kind != NodeKind::mass)
+    section.fail(rules::wrong_node, key, "\"{}\" is {}; {}", name,
+                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion", need);
+  return *node;
 }
 
 std::vector<std::string> node_names(const mechanics::Network& network) {

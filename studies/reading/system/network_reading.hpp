@@ -49,6 +49,9 @@ void take_name(NetworkReading& reading, const TomlSection& section, const std::s
 
 // The node of a name, or nothing.
 std::optional<mechanics::Node> find_node(const mechanics::Network& network, const std::string& name);
+// The mass whose name a key holds. need: "only a mass has initial values".
+mechanics::Node read_mass(const TomlSection& section, const mechanics::Network& network,
+                          const std::string& key, std::string_view need);
 
 // Names of all nodes, ground first.
 std::vector<std::string> node_names(const mechanics::Network& network);

@@ -9,7 +9,6 @@
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_context.hpp"
-#include "studies/reading/text/spelling.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
@@ -35,19 +34,6 @@ std::string why_no_record(StudyKind kind) {
       "{} needs periodic responses, but a record does not repeat; use it with kind = \"transient\" or "
       "\"tune\"",
       kind_noun(kind));
-}
-
-mechanics::Node driven_mass(const NetworkReading& reading, const TomlSection& section,
-                            const RecordedPlace& place) {
-  const auto& network = reading.result.network;
-  const auto node = find_node(network, place.node);
-  if (!node)
-    section.fail(rules::unknown_name, place.key, "no mass is called \"{}\"{}", place.node,
-                 suggestion(place.node, network.masses));
-  if (node->kind != NodeKind::mass)
-    section.fail(rules::wrong_node, place.key, "a force must act on a mass, but \"{}\" is {}", place.node,
-                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
-  return *node;
 }
 
 }  // namespace
@@ -111,8 +97,9 @@ void read_recorded_components(NetworkReading& reading, const TomlValue& excitati
   for (const TomlSection& section : record_sections(reading.context.source, excitation)) {
     const RecordedPlace place = place_of(section);
     const bool is_force = place.of == RecordOf::force;
-    const mechanics::Node node =
-        is_force ? driven_mass(reading, section, place) : *find_node(network, place.node);
+    const mechanics::Node node = is_force
+                                     ? read_mass(section, network, place.key, "a force must act on a mass")
+                                     : *find_node(network, place.node);
     network.excitations.push_back(
         {is_force ? ExcitationKind::recorded_force : ExcitationKind::recorded_motion, node.index, 0});
     values.amplitude.push_back(read_value(reading, section, "scale", Quantity::number, 1.0));
