@@ -8,6 +8,7 @@
 
 #include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/exact/rest_search.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/rest_directions.hpp"
@@ -107,16 +108,18 @@ BranchMap::Side BranchMap::side(Eigen::VectorXd y, double at) {
 // By differences within the range: what the parameter changes (the period, the matrices) has no derivative in
 // the flow.
 Shot BranchMap::shoot(const Eigen::VectorXd& y) {
-  constexpr double kSteps[] = {1e-6, 1e-8};  // of the range
+  constexpr double kSteps[] = {1e-6, 1e-8};  // of the range, or of ten times the value in a wide one
+  constexpr double kWide = 10.0, kLeast = 1e-3;
   Shot shot;
   try {
     Eigen::VectorXd column;
     bool is_straight = false;
+    const double share = std::clamp(kWide * std::abs(parameter(y)) / (high_ - low_), kLeast, 1.0);
     for (const double step : kSteps) {
       if (is_straight || (step != kSteps[0] && !is_next_to_grazing_)) break;
       const double here = y[y.size() - 1];
-      const Side before = side(y, std::max(here - step, std::min(0.0, here))),
-                 after = side(y, std::min(here + step, std::max(1.0, here)));
+      const Side before = side(y, std::max(here - share * step, std::min(0.0, here))),
+                 after = side(y, std::min(here + share * step, std::max(1.0, here)));
       set(parameter(y));
       pass(y, Tangent::followed, shot);
       shot.failed = shot.failed || before.residual.size() == 0 || after.residual.size() == 0;
@@ -169,6 +172,14 @@ AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {
   return orbit;
 }
 
+Eigen::VectorXd BranchMap::at_rest_in_the_middle(const Eigen::VectorXd& y) {
+  Shot shot = shoot(y);
+  if (shot.failed) return {};
+  AnyOrbit there = orbit(y, std::move(shot));
+  if (!RestSearch<kAnySize, kAnySize>(assembly_, flow_).shift_to_middle(there)) return {};
+  return place_of(there);
+}
+
 Eigen::VectorXd BranchMap::moved(const Eigen::VectorXd& y, double section) {
   set(parameter(y));
   const Eigen::Index n = flow_.equations().masses();
@@ -204,8 +215,35 @@ std::optional<double> BranchMap::better_section(const Shot& shot) const {
   if (std::min(first, last) > kNear * length()) return std::nullopt;
   const auto longest = std::ranges::max_element(segments, {}, &Segment<kAnySize, kAnySize>::length);
   if (0.5 * longest->length < kFar * length()) return std::nullopt;
-  const double middle = longest->start + 0.5 * longest->length;
+  return middle_of(*longest);
+}
+
+// As omega t [rad].
+double BranchMap::middle_of(const Segment<kAnySize, kAnySize>& stretch) const {
+  const double middle = stretch.start + 0.5 * stretch.length;
   return std::fmod(section_ + middle * flow_.fundamental_rate(), 2.0 * std::numbers::pi);
+}
+
+int BranchMap::slipping_sliders(const Segment<kAnySize, kAnySize>& stretch) const {
+  int slipping = 0;
+  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j)
+    slipping += flow_.equations().holds(j) || flow_.rests(flow_.mode(stretch.mode), j) ? 0 : 1;
+  return slipping;
+}
+
+std::optional<double> BranchMap::section_of_least_slip(const Eigen::VectorXd& y) {
+  Shot shot;
+  set(parameter(y));
+  pass(y, Tangent::none, shot);
+  if (shot.failed) return std::nullopt;
+  const auto& segments = shot.passage.segments;
+  const auto fewer_then_longer = [this](const auto& a, const auto& b) {
+    const int slip_a = slipping_sliders(a), slip_b = slipping_sliders(b);
+    return slip_a != slip_b ? slip_a < slip_b : a.length > b.length;
+  };
+  const auto best = std::ranges::min_element(segments, fewer_then_longer);
+  if (slipping_sliders(*best) >= slipping_sliders(segments.front())) return std::nullopt;
+  return middle_of(*best);
 }
 
 Eigen::VectorXcd BranchMap::multipliers(const Shot& shot) {

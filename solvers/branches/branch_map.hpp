@@ -53,6 +53,9 @@ class BranchMap {
   // part of its time, scaled as y. Zero where the orbit takes only so long. Empty where the motion cannot be
   // followed.
   Eigen::VectorXd gap_after(int part, const Eigen::VectorXd& y);
+  // For an orbit at whose section sliders slip, where their forces cannot follow a change of their limits:
+  // the middle of its longest stretch with the fewest that slip; none where none has fewer.
+  std::optional<double> section_of_least_slip(const Eigen::VectorXd& y);
   // Where an event has come within 2 % of the map's length: a section that is far from all; otherwise none.
   std::optional<double> better_section(const Shot& shot) const;
 
@@ -60,6 +63,9 @@ class BranchMap {
   double parameter(const Eigen::VectorXd& y) const { return low_ + (high_ - low_) * y[y.size() - 1]; }
   // The orbit of a shot that closes, at the parameter set.
   AnyOrbit orbit(const Eigen::VectorXd& y, Shot&& shot);
+  // The place of the orbit of a shot that closes, its contacts that stick throughout in the middle of where
+  // they may rest. Empty where that is not found. Leaves the flow set to the parameter of y.
+  Eigen::VectorXd at_rest_in_the_middle(const Eigen::VectorXd& y);
   // Floquet multipliers of what can move, over the whole period, the largest first.
   Eigen::VectorXcd multipliers(const Shot& shot);
 
@@ -80,6 +86,8 @@ class BranchMap {
     std::vector<int> events;
   };
   Side side(Eigen::VectorXd y, double at);
+  double middle_of(const Segment<kAnySize, kAnySize>& stretch) const;
+  int slipping_sliders(const Segment<kAnySize, kAnySize>& stretch) const;
   static Eigen::VectorXd by_parameter(const Side& before, const Side& here, const Side& after,
                                       bool& is_straight);
 

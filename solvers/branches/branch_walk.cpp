@@ -40,7 +40,7 @@ class BranchWalk {
       const auto next = take_step();
       if (!next) {
         step_ *= 0.5;
-        if (step_ >= limits_.least || look_closer()) continue;
+        if (step_ >= limits_.least || leave_slip() || look_closer()) continue;
         if (!pass_corner()) return end_here();
         continue;
       }
@@ -57,7 +57,8 @@ class BranchWalk {
       }
       if (!accept(*next)) return BranchEnd::joined;
       if (here_.y.norm() > limits_.most_size) return BranchEnd::unbounded;
-      if (here_.section_is_near_event) move_section();
+      if (here_.section_is_near_event) move_section(here_.better_section);
+      if (here_.rests_at_limit) leave_limit();
     }
     return BranchEnd::points;
   }
@@ -121,6 +122,25 @@ class BranchWalk {
     }
   }
 
+  // To a section at which fewer sliders slip. False: there is none.
+  bool leave_slip() {
+    const auto section = map_.section_of_least_slip(here_.y);
+    if (!section || !move_section(*section)) return false;
+    step_ = limits_.kink;
+    return true;
+  }
+
+  // What sticks throughout may rest anywhere in an interval. Where the end of the interval moves on, every
+  // place after this one would have a force that just reaches its limit.
+  void leave_limit() {
+    const Eigen::VectorXd middle = map_.at_rest_in_the_middle(here_.y);
+    if (middle.size() == 0) return;
+    auto place = correct(map_, middle, here_.tangent, here_.tangent);
+    if (!place || place->rests_at_limit) return;
+    here_ = std::move(*place);
+    passed_.push_back(here_.y);
+  }
+
   // False: the map does so already.
   bool look_closer() {
     if (is_close_) return false;
@@ -157,6 +177,7 @@ class BranchWalk {
     constexpr double kSame = 1e-4;
     auto next = correct(map_, here_.y + distance * way, way, way);
     if (!next || !next->is_single || next->events == here_.events) return std::nullopt;
+    if (const double p = next->y[next->y.size() - 1]; p < 0.0 || p > 1.0) return std::nullopt;
     const Eigen::VectorXd on = next->y - here_.y;
     if (on.norm() > kNear * distance) return std::nullopt;
     const auto before = come_by(here_.tangent.dot(on));  // not on the way back
@@ -191,6 +212,9 @@ class BranchWalk {
 
   // Why no place continues the branch.
   BranchEnd end_here() {
+    constexpr double kAtEnd = 1e-8;  // of the range
+    if (leaves_range(here_.y + kAtEnd * here_.tangent / std::abs(here_.parameter_rate()), here_.tangent))
+      return BranchEnd::range;
     Eigen::VectorXd beyond = here_.y + limits_.corner * here_.tangent;
     beyond[beyond.size() - 1] = std::clamp(beyond[beyond.size() - 1], 0.0, 1.0);
     try {
@@ -209,12 +233,18 @@ class BranchWalk {
     return BranchEnd::jump;
   }
 
-  // The step that led to the first place again, or past it.
+  // The step that led to the first place again, or past it: where it meets the plane through this place, it
+  // is there. In a wide range of the parameter other parts of the branch come near.
   bool passes(const BranchPlace& first, const BranchPlace& next) const {
+    constexpr double kSame = 1e-6;
     const Eigen::VectorXd to_first = first.y - here_.y;
     const double along = here_.tangent.dot(to_first);
-    return along > 0.0 && along <= here_.tangent.dot(next.y - here_.y) && to_first.norm() < 2.0 * step_ &&
-           (to_first - along * here_.tangent).norm() < 0.5 * step_ && here_.tangent.dot(first.tangent) > 0.9;
+    const bool is_near =
+        along > 0.0 && along <= here_.tangent.dot(next.y - here_.y) && to_first.norm() < 2.0 * step_ &&
+        (to_first - along * here_.tangent).norm() < 0.5 * step_ && here_.tangent.dot(first.tangent) > 0.9;
+    if (!is_near) return false;
+    const auto place = correct(map_, here_.y + along * here_.tangent, here_.tangent, here_.tangent);
+    return place && (place->y - first.y).norm() < kSame * std::max(1.0, first.y.norm());
   }
 
   // False: the branch is known from there on.
@@ -233,24 +263,24 @@ class BranchWalk {
 
   // Away from events: where one passes the section, the curve of states there has a kink. Its tangent is
   // found from the chord of the last two places.
-  void move_section() {
-    if (passed_.size() < 2) return;
-    const double to = here_.better_section;
+  bool move_section(double to) {
+    if (passed_.size() < 2) return false;
     const Eigen::VectorXd before = map_.moved(passed_[passed_.size() - 2], to),
                           first = map_.moved(firsts_.front().y, to);
     const Eigen::VectorXd now = map_.moved(here_.y, to);
-    if (before.size() == 0 || first.size() == 0 || now.size() == 0) return;
+    if (before.size() == 0 || first.size() == 0 || now.size() == 0) return false;
     const double from = map_.section();
     map_.set_section(to);
     const Eigen::VectorXd chord = (now - before).normalized();
     const Eigen::VectorXd along = Eigen::VectorXd::Unit(now.size(), now.size() - 1);
     const auto place = correct(map_, now, chord, chord);
     const auto start = correct(map_, first, along, firsts_.front().parameter_rate() * along);
-    if (!place || !start) return map_.set_section(from);
+    if (!place || !start) return map_.set_section(from), false;
     here_ = *place;
     firsts_ = {*start};
     add_later_firsts();
     passed_ = {before, here_.y};
+    return true;
   }
 
   BranchMap& map_;

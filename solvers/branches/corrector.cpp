@@ -36,6 +36,7 @@ Eigen::VectorXd branch_tangent(const Eigen::MatrixXd& derivative, const Eigen::V
 std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start, const Eigen::VectorXd& row,
                                    const Eigen::VectorXd& towards) {
   constexpr int kMostIterations = 12;
+  constexpr double kAtLimit = 1e-4;                          // of the force
   constexpr double kTolerance = 1e-13, kGoodEnough = 1e-11;  // of the relative residual (ShootingOptions)
   Eigen::VectorXd y = start;
   double before = HUGE_VAL;
@@ -54,6 +55,7 @@ std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start,
       place.better_section = section.value_or(0.0);
       place.tangent = branch_tangent(shot.derivative, towards);
       if (!place.tangent.allFinite()) return std::nullopt;
+      place.rests_at_limit = shot.stuck_throughout != 0 && shot.passage.margin < kAtLimit;
       place.is_single = is_curve(shot.derivative, place.tangent);
       place.multipliers = map.multipliers(shot);
       place.events = count_events(map.flow(), shot.passage);

@@ -15,7 +15,8 @@ struct BranchPlace {
   Eigen::VectorXcd multipliers;
   std::vector<int> events;
   int newton_iterations = 0;
-  bool is_single = true;  // false: a whole family of orbits has this value of the parameter
+  bool is_single = true;        // false: a whole family of orbits has this value of the parameter
+  bool rests_at_limit = false;  // a contact that sticks throughout: a force nearly reaches its limit
   bool section_is_near_event = false;
   double better_section = 0.0;  // then: omega t [rad] in the middle of the longest stretch without events
 

@@ -115,6 +115,11 @@ void FollowedBranch::follow(const AnyOrbit& orbit, const IsKnown& is_known, cons
   const Eigen::VectorXd y = map_.begin(orbit);
   const Eigen::VectorXd along = Eigen::VectorXd::Unit(y.size(), y.size() - 1);
   auto first = correct(map_, y, along, along);
+  if (const auto section = first ? std::nullopt : map_.section_of_least_slip(y)) {
+    const Eigen::VectorXd there = map_.moved(y, *section);
+    map_.set_section(*section);
+    if (there.size() > 0) first = correct(map_, there, along, along);
+  }
   if (!first) {
     branch_.reason = "the orbit at the start could not be refined";
     return;

@@ -451,5 +451,87 @@ TEST_CASE("A branch ends where a family of orbits has one value of the parameter
   CHECK(of_kind(branch, SpecialKind::fold).empty());  // all laws are monotone: nothing turns back
 }
 
+// A mass on a spring, a damper and a slider with a spring (stiffness 1), under a force and a steady one.
+struct MassWithSlider {
+  double frequency = 1.0, slip_force = 0.7, steady = 0.0;
+
+  static Network network() {
+    Network network{.masses = {"x"},
+                    .prescribed = {},
+                    .elements = {{"spring", ElementType::spring, ground, mass},
+                                 {"damper", ElementType::damper, ground, mass},
+                                 {"slider", ElementType::jenkins, ground, mass}},
+                    .excitations = {{ExcitationKind::force, 0, 1}}};
+    network.excitations.push_back({ExcitationKind::force, 0, 0});
+    return network;
+  }
+  NetworkValues values() const {
+    return {.omega = frequency,
+            .mass = {1.0},
+            .element = {1.0, 0.1, 1.0},
+            .excitation = {{1.0, 0.0}, {steady, 0.0}},
+            .second = {0.0, 0.0, slip_force}};
+  }
+};
+
+TEST_CASE("A branch along the force of a slider goes on where the slider slips at the section") {
+  const auto values = [](double force) {
+    return MassWithSlider{.frequency = 1.1, .slip_force = force}.values();
+  };
+  // Not the peak: where the slider is stuck for good its offset is one of many.
+  const std::vector<Quantity> amplitude{{Measure::amplitude, 0}};
+  PeriodicResponse response(MassWithSlider::network(), amplitude);
+  double found = 0.0;
+  for (const double start : {0.2, 1.0}) {
+    const Branch branch = follow_branch(MassWithSlider::network(), amplitude, values,
+                                        {.low = 0.2, .high = 2.0, .start = start});
+    INFO("from " << start << " " << branch.reason);
+    CHECK(branch.first_end == BranchEnd::range);
+    CHECK(branch.last_end == BranchEnd::range);
+    for (const BranchPoint& point : branch.points) {
+      response.set_values(values(point.parameter));
+      REQUIRE(response.solve().status == Status::ok);
+      response.quantities({&found, 1});
+      CHECK(point.quantities[0] == Approx(found).epsilon(kPrinted));
+    }
+  }
+}
+
+// Stuck for good, the slider keeps its offset along the branch, until the end of the interval of offsets
+// reaches it: at every place beyond the force would just reach its limit. The steady force does no work on
+// the amplitude
+//   X = P / sqrt((2 - r^2)^2 + (c r)^2), while the slider is stuck
+TEST_CASE("A branch goes on where the rest position of a stuck slider meets the end of its interval") {
+  constexpr double kDamping = 0.1;
+  const auto values = [](double r) { return MassWithSlider{.frequency = r, .steady = 0.3}.values(); };
+  const Branch branch = follow_branch(MassWithSlider::network(), {{Measure::amplitude, 0}}, values,
+                                      {.low = 0.3, .high = 3.0, .start = 2.5});
+  CHECK(branch.first_end == BranchEnd::range);
+  CHECK(branch.last_end == BranchEnd::range);
+  CHECK(branch.points.size() < 1000);
+  int stuck = 0;
+  for (const BranchPoint& point : branch.points) {
+    const double r = point.parameter;
+    const double amplitude = 1.0 / std::hypot(2.0 - r * r, kDamping * r);
+    if (amplitude > 0.7) continue;  // of the slip force
+    CHECK(point.quantities[0] == Approx(amplitude).epsilon(kPrinted));
+    ++stuck;
+  }
+  CHECK(stuck > 30);
+}
+
+TEST_CASE("A branch over a wide range is not called closed where other parts of it come near") {
+  const auto values = [](double r) {
+    NetworkValues at = stop_values(r, 0.025, 2.0, 0.0);
+    for (auto& bend : at.bends[2]) bend.place = 0.5;
+    return at;
+  };
+  const Branch branch =
+      follow_branch(mass_between_stops(), asked, values, {.low = 0.05, .high = 20.0, .start = 0.05});
+  CHECK(branch.first_end == BranchEnd::range);
+  CHECK(branch.last_end != BranchEnd::closed);
+  CHECK(branch.points.back().parameter > 1.0);
+}
+
 }  // namespace
 }  // namespace frahm::periodic::branch_test
