@@ -173,7 +173,9 @@ AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {
 }
 
 Eigen::VectorXd BranchMap::at_rest_in_the_middle(const Eigen::VectorXd& y) {
-  Shot shot = shoot(y);
+  Shot shot;
+  set(parameter(y));
+  pass(y, Tangent::followed, shot);
   if (shot.failed) return {};
   AnyOrbit there = orbit(y, std::move(shot));
   if (!RestSearch<kAnySize, kAnySize>(assembly_, flow_).shift_to_middle(there)) return {};

@@ -111,15 +111,25 @@ FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool
   return way;
 }
 
-void FollowedBranch::follow(const AnyOrbit& orbit, const IsKnown& is_known, const BranchProgress& progress) {
-  const Eigen::VectorXd y = map_.begin(orbit);
+// The place of the orbit at the start: at another section where sliders slip at this one, and in the middle
+// of its interval where what rests is at its end.
+std::optional<BranchPlace> FollowedBranch::first_place(const Eigen::VectorXd& y) {
   const Eigen::VectorXd along = Eigen::VectorXd::Unit(y.size(), y.size() - 1);
-  auto first = correct(map_, y, along, along);
-  if (const auto section = first ? std::nullopt : map_.section_of_least_slip(y)) {
+  const auto place_at = [&](const Eigen::VectorXd& start) {
+    return start.size() == 0 ? std::nullopt : correct(map_, start, along, along);
+  };
+  if (auto first = place_at(y)) return first;
+  if (const auto section = map_.section_of_least_slip(y)) {
     const Eigen::VectorXd there = map_.moved(y, *section);
     map_.set_section(*section);
-    if (there.size() > 0) first = correct(map_, there, along, along);
+    if (auto first = place_at(there)) return first;
+    map_.set_section(0.0);
   }
+  return place_at(map_.at_rest_in_the_middle(y));
+}
+
+void FollowedBranch::follow(const AnyOrbit& orbit, const IsKnown& is_known, const BranchProgress& progress) {
+  auto first = first_place(map_.begin(orbit));
   if (!first) {
     branch_.reason = "the orbit at the start could not be refined";
     return;

@@ -520,6 +520,19 @@ TEST_CASE("A branch goes on where the rest position of a stuck slider meets the 
   CHECK(stuck > 30);
 }
 
+TEST_CASE("A branch starts where what rests is at the end of its interval, at the end of the range too") {
+  const auto values = [](double amplitude) {
+    NetworkValues at = MassWithSlider{.frequency = 0.5, .slip_force = 0.5, .steady = 1.2}.values();
+    at.excitation[0].amplitude = amplitude;
+    return at;
+  };
+  const Branch branch =
+      follow_branch(MassWithSlider::network(), asked, values, {.low = 0.1, .high = 2.0, .start = 0.1});
+  INFO(branch.reason);
+  CHECK(branch.reason.empty());
+  CHECK(branch.last_end == BranchEnd::range);
+}
+
 TEST_CASE("A branch over a wide range is not called closed where other parts of it come near") {
   const auto values = [](double r) {
     NetworkValues at = stop_values(r, 0.025, 2.0, 0.0);
