@@ -136,7 +136,7 @@ class BranchWalk {
     const Eigen::VectorXd middle = map_.at_rest_in_the_middle(here_.y);
     if (middle.size() == 0) return;
     auto place = correct(map_, middle, here_.tangent, here_.tangent);
-    if (!place || place->rests_at_limit) return;
+    if (!place) return;
     here_ = std::move(*place);
     passed_.push_back(here_.y);
   }

@@ -64,7 +64,18 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   point.stable = orbit.is_stable() || map_.system().monotone;  // then motions never part
   point.multiple = orbit.multiple;
   point.residual = orbit.residual;
+  const bool rests_at_limit = std::isnan(orbit.floquet_radius) && orbit.stuck_throughout != 0;
+  if (!point.stable && rests_at_limit) point.stable = is_stable_in_the_middle(y);
   return point;
+}
+
+// What is beyond the end of the interval in which something rests says nothing of the motions that rest
+// inside.
+bool FollowedBranch::is_stable_in_the_middle(const Eigen::VectorXd& y) {
+  const Eigen::VectorXd middle = map_.at_rest_in_the_middle(y);
+  if (middle.size() == 0) return false;
+  Shot shot = map_.shoot(middle);
+  return !shot.failed && map_.orbit(middle, std::move(shot)).is_stable();
 }
 
 bool FollowedBranch::is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known) {

@@ -55,6 +55,7 @@ class FollowedBranch {
   OneWay follow_way(const BranchPlace& first, bool stable, double sign, const IsKnown& is_known,
                     const BranchProgress& progress);
   bool is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known);
+  bool is_stable_in_the_middle(const Eigen::VectorXd& y);
   std::optional<BranchPlace> first_place(const Eigen::VectorXd& y);
   bool lies_on(const Step& step, const Eigen::VectorXd& y);
 
