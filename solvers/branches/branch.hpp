@@ -14,8 +14,10 @@
 // Applications of Bifurcation Theory, 1977, pp. 359-384).
 namespace frahm::periodic {
 
-// The numbers of the network at a value of the parameter.
-using ValuesAlong = std::function<mechanics::NetworkValues(double parameter)>;
+// The numbers of the network at a value of the parameter, and their derivative by it.
+struct ValuesAlong {
+  std::function<mechanics::NetworkValues(double parameter)> at, derivative;
+};
 
 struct BranchPoint {
   double parameter = 0.0;

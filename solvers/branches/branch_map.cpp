@@ -9,6 +9,7 @@
 #include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/exact/response.hpp"
 #include "solvers/exact/rest_search.hpp"
+#include "solvers/mechanics/system_derivative.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/rest_directions.hpp"
@@ -16,10 +17,16 @@
 namespace frahm::periodic {
 
 BranchMap::BranchMap(const mechanics::Network& network, const ValuesAlong& values, double low, double high)
-    : assembly_(network), values_(values), low_(low), high_(high), walk_(flow_) {}
+    : assembly_(network),
+      values_(values),
+      low_(low),
+      high_(high),
+      walk_(flow_),
+      steps_(flow_),
+      sensitivity_(flow_) {}
 
 void BranchMap::set(double parameter) {
-  const mechanics::NetworkValues now = values_(parameter);
+  const mechanics::NetworkValues now = values_.at(parameter);
   const bool same_matrices =
       has_last_ && !assembly_.matrices_depend_on_frequency() && have_same_elements(now, last_);
   has_last_ = false;
@@ -84,7 +91,8 @@ void BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot) {
   const Eigen::VectorXd z = state(y);
   shot.failed = true;
   if (!z.allFinite() || eq.period > ShootingOptions{}.most_steps_a_period) return;
-  walk_.pass(z, section_, length(), shot.passage, tangent);
+  steps_.clear();
+  walk_.pass(z, section_, length(), shot.passage, tangent, 0, &steps_);
   if (shot.passage.failure != nullptr) return;
   shot.failed = false;
   shot.stuck_throughout = stuck_throughout(flow_, shot.passage);
@@ -95,45 +103,18 @@ void BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot) {
   shot.residual = root_ * residual / scale_;
 }
 
-// The residual, and the events, of the state of y at another value of the parameter; none where it fails.
-BranchMap::Side BranchMap::side(Eigen::VectorXd y, double at) {
-  y[y.size() - 1] = at;
-  set(parameter(y));
-  Shot shot;
-  pass(y, Tangent::none, shot);
-  if (shot.failed) return {};
-  return {at, shot.residual, count_events(flow_, shot.passage)};
-}
-
-// By differences within the range: what the parameter changes (the period, the matrices) has no derivative in
-// the flow.
 Shot BranchMap::shoot(const Eigen::VectorXd& y) {
-  constexpr double kSteps[] = {1e-6, 1e-8};  // of the range, or of ten times the value in a wide one
-  constexpr double kWide = 10.0, kLeast = 1e-3;
   Shot shot;
   try {
-    Eigen::VectorXd column;
-    bool is_straight = false;
-    const double share = std::clamp(kWide * std::abs(parameter(y)) / (high_ - low_), kLeast, 1.0);
-    for (const double step : kSteps) {
-      if (is_straight || (step != kSteps[0] && !is_next_to_grazing_)) break;
-      const double here = y[y.size() - 1];
-      const Side before = side(y, std::max(here - share * step, std::min(0.0, here))),
-                 after = side(y, std::min(here + share * step, std::max(1.0, here)));
-      set(parameter(y));
-      pass(y, Tangent::followed, shot);
-      shot.failed = shot.failed || before.residual.size() == 0 || after.residual.size() == 0;
-      if (shot.failed) return shot;
-      column =
-          by_parameter(before, {here, shot.residual, count_events(flow_, shot.passage)}, after, is_straight);
-    }
-    const auto& eq = flow_.equations();
+    set(parameter(y));
+    pass(y, Tangent::followed, shot);
+    if (shot.failed) return shot;
     Eigen::MatrixXd A = (half_period_ ? -1.0 : 1.0) * shot.passage.tangent;
     A.diagonal().array() -= 1.0;
     if (!half_period_ && shot.stuck_throughout != 0)
-      A -= shift_projector(rest_directions(eq, shot.stuck_throughout));
+      A -= shift_projector(rest_directions(flow_.equations(), shot.stuck_throughout));
     shot.derivative.resize(y.size() - 1, y.size());
-    shot.derivative << scaled(A), column;
+    shot.derivative << scaled(A), by_parameter(shot);
     shot.failed = !shot.derivative.allFinite();
   } catch (const mechanics::MechanicsError&) {  // the parameter's values break a rule here
     shot.failed = true;
@@ -141,21 +122,25 @@ Shot BranchMap::shoot(const Eigen::VectorXd& y) {
   return shot;
 }
 
-// From one side to the other; where an event begins between both, of the one that has the events of here.
-Eigen::VectorXd BranchMap::by_parameter(const Side& before, const Side& here, const Side& after,
-                                        bool& is_straight) {
-  constexpr double kStraight = 1e-3;
-  const auto slope = [](const Side& from, const Side& to) -> Eigen::VectorXd {
-    return (to.residual - from.residual) / (to.at - from.at);
-  };
-  if (before.events != after.events) {
-    is_straight = false;
-    return before.events == here.events ? slope(before, here) : slope(here, after);
-  }
-  const Eigen::VectorXd column = slope(before, after);
-  const bool is_at_end = before.at == here.at || after.at == here.at;
-  is_straight = is_at_end || (slope(before, here) - slope(here, after)).norm() < kStraight * column.norm();
-  return column;
+// Of the residual by the parameter, scaled, from a state whose velocity in SI does not change: counted in
+// steps it is  v h, which grows by (v h) dh/h.
+Eigen::VectorXd BranchMap::by_parameter(const Shot& shot) {
+  const auto& eq = flow_.equations();
+  const Eigen::Index n = eq.masses();
+  mechanics::LinearSystem system_by;
+  mechanics::differentiate(assembly_, last_, values_.derivative(at_), system(), system_by);
+  StepDerivative<kAnySize, kAnySize> by;
+  by.set(eq, system(), system_by);
+  sensitivity_.set_direction(by);
+  for (auto& step : steps_.steps()) steps_.expand(step);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(eq.states());
+  start.segment(n, n) = by.log_step * shot.passage.segments.front().z.segment(n, n);
+  Eigen::VectorXd end = sensitivity_.carry(steps_.steps(), shot.passage.changes, start);
+  end.segment(n, n) = (end.segment(n, n) - by.log_step * shot.passage.end.segment(n, n)) / eq.step;
+  if (half_period_) end *= -1.0;
+  if (!half_period_ && shot.stuck_throughout != 0)
+    end -= shift_projector(rest_directions(eq, shot.stuck_throughout)) * end;
+  return (high_ - low_) / scale_ * (root_ * end);
 }
 
 AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {

@@ -9,6 +9,7 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/orbits/shooting.hpp"
+#include "solvers/quantities/sensitivity_sizes.hpp"
 
 namespace frahm::periodic {
 
@@ -36,10 +37,6 @@ class BranchMap {
   // The place of another orbit of the parameter set that takes as many periods and starts at phase 0.
   Eigen::VectorXd place_of(const AnyOrbit& orbit) const;
   int multiple() const { return multiple_; }  // of the excitation's period
-
-  // Next to a grazing the residual bends like the root of the distance: its derivative by the parameter is
-  // then taken over a shorter step.
-  void set_next_to_grazing(bool is_next) { is_next_to_grazing_ = is_next; }
 
   // Leaves the flow set to the parameter of y.
   Shot shoot(const Eigen::VectorXd& y);
@@ -80,16 +77,9 @@ class BranchMap {
   double length() const { return (half_period_ ? 0.5 : 1.0) * flow_.equations().period; }
   void pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot);
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
-  struct Side {
-    double at = 0.0;  // of the parameter, scaled
-    Eigen::VectorXd residual;
-    std::vector<int> events;
-  };
-  Side side(Eigen::VectorXd y, double at);
+  Eigen::VectorXd by_parameter(const Shot& shot);
   double middle_of(const Segment<kAnySize, kAnySize>& stretch) const;
   int slipping_sliders(const Segment<kAnySize, kAnySize>& stretch) const;
-  static Eigen::VectorXd by_parameter(const Side& before, const Side& here, const Side& after,
-                                      bool& is_straight);
 
   mechanics::Assembly assembly_;
   ValuesAlong values_;
@@ -99,9 +89,11 @@ class BranchMap {
   mechanics::LinearSystem system_, longer_;
   AnyFlow flow_;
   Walk<kAnySize, kAnySize> walk_;
+  PassageSteps<kAnySize, kAnySize> steps_;  // of the last shot
+  PassageSensitivity<kAnySize, kAnySize> sensitivity_;
 
   int multiple_ = 1;
-  bool half_period_ = false, is_next_to_grazing_ = false;
+  bool half_period_ = false;
   double scale_ = 1.0, section_ = 0.0;
   Eigen::MatrixXd root_, root_inverse_;  // R of states in SI
 };

@@ -29,7 +29,6 @@ class BranchWalk {
       : map_(map), wanted_(wanted), found_(found) {}
 
   BranchEnd follow(const BranchPlace& first) {
-    set_close(false);
     here_ = first;
     firsts_ = {first};
     add_later_firsts();
@@ -40,7 +39,7 @@ class BranchWalk {
       const auto next = take_step();
       if (!next) {
         step_ *= 0.5;
-        if (step_ >= limits_.least || leave_slip() || look_closer()) continue;
+        if (step_ >= limits_.least || leave_slip()) continue;
         if (!pass_corner()) return end_here();
         continue;
       }
@@ -85,6 +84,7 @@ class BranchWalk {
     auto next = correct(map_, predicted, across, here_.tangent);
     if (!next || !next->is_single || takes_less_time(*next)) return std::nullopt;
     if (next->y[last] < 0.0 || next->y[last] > 1.0) return std::nullopt;
+    if (next->grazes && next->events != here_.events) return std::nullopt;  // its tangent is of neither side
     if (across[last] == 1.0) next->y[last] = predicted[last];
     const double shift = (next->y - predicted).norm() / step_;
     const double angle = std::acos(std::clamp(here_.tangent.dot(next->tangent), -1.0, 1.0));
@@ -139,18 +139,6 @@ class BranchWalk {
     if (!place) return;
     here_ = std::move(*place);
     passed_.push_back(here_.y);
-  }
-
-  // False: the map does so already.
-  bool look_closer() {
-    if (is_close_) return false;
-    set_close(true);
-    step_ = limits_.kink;
-    return true;
-  }
-  void set_close(bool is_close) {
-    is_close_ = is_close;
-    map_.set_next_to_grazing(is_close);
   }
 
   // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side
@@ -249,11 +237,10 @@ class BranchWalk {
 
   // False: the branch is known from there on.
   bool accept(const BranchPlace& next) {
-    constexpr double kGrow = 1.5, kAway = 1e-4;
+    constexpr double kGrow = 1.5;
     constexpr int kFast = 4;  // Newton's steps
     const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
     const bool is_new = found_({here_, &next, special_places(map_, here_, next)});
-    if (is_close_ && step_ > kAway) set_close(false);
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
       step_ = std::min(kGrow * step_, wanted_.largest_step * std::max(1.0, next.y.norm()));
     here_ = next;
@@ -291,7 +278,6 @@ class BranchWalk {
   std::vector<BranchPlace> firsts_;      // the first place, then those of add_later_firsts
   std::vector<Eigen::VectorXd> passed_;  // the last one is here
   double step_ = 0.0;
-  bool is_close_ = false;  // to a grazing
 };
 
 }  // namespace
@@ -301,7 +287,6 @@ BranchEnd walk_branch(BranchMap& map, const BranchWanted& wanted, const BranchPl
   const double section = map.section();
   const BranchEnd end = BranchWalk(map, wanted, found).follow(first);
   map.set_section(section);
-  map.set_next_to_grazing(false);
   return end;
 }
 

@@ -55,6 +55,7 @@ std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start,
       place.better_section = section.value_or(0.0);
       place.tangent = branch_tangent(shot.derivative, towards);
       if (!place.tangent.allFinite()) return std::nullopt;
+      place.grazes = shot.passage.margin < kGrazing;
       place.rests_at_limit = shot.stuck_throughout != 0 && shot.passage.margin < kAtLimit;
       place.is_single = is_curve(shot.derivative, place.tangent);
       place.multipliers = map.multipliers(shot);

@@ -16,6 +16,7 @@ struct BranchPlace {
   std::vector<int> events;
   int newton_iterations = 0;
   bool is_single = true;        // false: a whole family of orbits has this value of the parameter
+  bool grazes = false;          // an event only just happens: the map may have a kink here
   bool rests_at_limit = false;  // a contact that sticks throughout: a force nearly reaches its limit
   bool section_is_near_event = false;
   double better_section = 0.0;  // then: omega t [rad] in the middle of the longest stretch without events

@@ -7,8 +7,8 @@
 namespace frahm::periodic {
 namespace {
 
-// The period doubling of the orbits of half the period near an orbit that is nearly one of them, as a place
-// of theirs: a multiplier is -1.
+// Where the orbits of half the period change their stability near an orbit that is nearly one of them, as a
+// place of theirs: a multiplier is -1, or jumps where an event begins.
 std::optional<SpecialPlace> doubling_near(BranchMap& shorter, const Eigen::VectorXd& near) {
   constexpr double kReaches[] = {1e-6, 1e-5, 1e-4, 1e-3};  // of the parameter's range
   const Eigen::VectorXd along = Eigen::VectorXd::Unit(near.size(), near.size() - 1);
@@ -18,7 +18,7 @@ std::optional<SpecialPlace> doubling_near(BranchMap& shorter, const Eigen::Vecto
     if (!below || !above) return std::nullopt;
     if (below->unstable() == above->unstable()) continue;
     for (const SpecialPlace& each : special_places(shorter, *below, *above))
-      if (each.kind == SpecialKind::period_doubling) return each;
+      if (each.kind == SpecialKind::period_doubling || each.kind == SpecialKind::stability_jump) return each;
     return std::nullopt;
   }
   return std::nullopt;

@@ -78,14 +78,23 @@ bool FollowedBranch::is_stable_in_the_middle(const Eigen::VectorXd& y) {
   return !shot.failed && map_.orbit(middle, std::move(shot)).is_stable();
 }
 
-bool FollowedBranch::is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known) {
-  if (!is_known) return false;
-  const Eigen::VectorXd at_phase_0 = map_.moved(y, 0.0);
+// Whether the place that a step has led to is known, or lies on a step of this branch that is not next to it.
+bool FollowedBranch::is_known_after(const Step& step, const IsKnown& is_known) {
+  const double section = map_.section();
+  const Eigen::VectorXd at_phase_0 = map_.moved(step.to, 0.0);
   if (at_phase_0.size() == 0) return false;
   AnyOrbit orbit;
   orbit.z = map_.state(at_phase_0);
   orbit.multiple = map_.multiple();
-  return is_known(map_.parameter(y), orbit);
+  const double parameter = map_.parameter(step.to);
+  const bool is_elsewhere = is_known && is_known(parameter, orbit);
+  const auto is_apart = [&step](const Step& other) {
+    const double reach = (step.to - step.from).norm() + (other.to - other.from).norm();
+    return std::abs(step.arclength - other.arclength) > 2.0 * reach;
+  };
+  const bool is_known_here = is_elsewhere || passes(parameter, orbit, is_apart);
+  map_.set_section(section);
+  return is_known_here;
 }
 
 FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool stable, double sign,
@@ -112,12 +121,14 @@ FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool
     way.points.push_back(std::move(*point));
     way.points.back().arclength = sign * arclength;
     const bool now = way.points.back().stable;
-    steps_.push_back({step.from.y, step.to->y, map_.section(), std::exchange(stable, now), now});
+    steps_.push_back({step.from.y, step.to->y, map_.section(), way.points.back().arclength,
+                      std::exchange(stable, now), now});
     if (progress) progress(way.points.back());
-    known = is_known_at(step.to->y, is_known) ? known + 1 : 0;
+    known = is_known_after(steps_.back(), is_known) ? known + 1 : 0;
     return known < kJoined;
   };
   way.end = walk_branch(map_, wanted_, first, found);
+  if (way.end == BranchEnd::joined && !grows) steps_.resize(steps_.size() - kJoined);  // counted before
   if (grows) way.end = BranchEnd::unbounded;
   return way;
 }
@@ -195,15 +206,18 @@ bool FollowedBranch::lies_on(const Step& step, const Eigen::VectorXd& y) {
 }
 
 bool FollowedBranch::passes(double parameter, const AnyOrbit& orbit) {
-  const auto [least, most] = std::ranges::minmax(branch_.points, {}, &BranchPoint::parameter);
-  if (orbit.multiple != map_.multiple() || parameter < least.parameter || parameter > most.parameter)
-    return false;
+  return passes(parameter, orbit, [](const Step&) { return true; });
+}
+
+// Whether one of the steps that count passes the orbit.
+bool FollowedBranch::passes(double parameter, const AnyOrbit& orbit, const StepFilter& counts) {
+  if (orbit.multiple != map_.multiple()) return false;
   const double turn = 2.0 * std::numbers::pi, at = (parameter - wanted_.low) / (wanted_.high - wanted_.low);
   for (int later = 0; later < orbit.multiple; ++later) {  // periods of the excitation
     double section = -1.0;
     Eigen::VectorXd y;
     for (const Step& step : steps_) {
-      if (!step.is_near(at)) continue;
+      if (!step.is_near(at) || !counts(step)) continue;
       if (step.section != section) {
         section = step.section;
         map_.set(parameter);

@@ -38,7 +38,7 @@ class FollowedBranch {
   // From one point to the next, at one section.
   struct Step {
     Eigen::VectorXd from, to;
-    double section = 0.0;
+    double section = 0.0, arclength = 0.0;  // at its end, negative before the first point
     bool from_stable = false, to_stable = false;
 
     bool is_near(double at) const;
@@ -54,7 +54,9 @@ class FollowedBranch {
   // sign: of the arclength.
   OneWay follow_way(const BranchPlace& first, bool stable, double sign, const IsKnown& is_known,
                     const BranchProgress& progress);
-  bool is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known);
+  bool is_known_after(const Step& step, const IsKnown& is_known);
+  using StepFilter = std::function<bool(const Step&)>;
+  bool passes(double parameter, const AnyOrbit& orbit, const StepFilter& counts);
   bool is_stable_in_the_middle(const Eigen::VectorXd& y);
   std::optional<BranchPlace> first_place(const Eigen::VectorXd& y);
   bool lies_on(const Step& step, const Eigen::VectorXd& y);

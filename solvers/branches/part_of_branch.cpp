@@ -1,48 +1,64 @@
 #include "solvers/branches/part_of_branch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace frahm::periodic {
+namespace {
 
-std::optional<BranchPlace> PartOfBranch::place(double s, const BranchPlace& a, const BranchPlace& b) const {
-  const double part = (s - at(a)) / (at(b) - at(a));
-  if (const auto place =
-          correct(map_, a.y + part * (b.y - a.y), from_.tangent, part < 0.5 ? a.tangent : b.tangent))
+// Whether a place found between two is of their branch, and not of one that crosses it or begins at a kink:
+// off the chord by no more than a corner of 90 degrees is, its tangent that of a side and not across the
+// chord. The tangent is turned the way this side's leads.
+bool is_between(const BranchPlace& a, const BranchPlace& b, const Eigen::VectorXd& foot, BranchPlace& place) {
+  constexpr double kOff = 0.5, kAlong = 0.7, kAcross = 0.1, kRounding = 1e-12;
+  const double on = place.tangent.dot((b.y - a.y).normalized());
+  const double reach = kOff * (b.y - a.y).norm() + kRounding * std::max(1.0, foot.norm());
+  const double as_a = place.tangent.dot(a.tangent), as_b = place.tangent.dot(b.tangent);
+  const double along = std::abs(as_a) > std::abs(as_b) ? as_a : as_b;
+  if (along < 0.0) place.tangent *= -1.0;
+  return (place.y - foot).norm() <= reach && std::abs(along) > kAlong && std::abs(on) > kAcross;
+}
+
+}  // namespace
+
+std::optional<BranchPlace> PartOfBranch::place(double share, const BranchPlace& a,
+                                               const BranchPlace& b) const {
+  const Eigen::VectorXd chord = b.y - a.y, across = chord.normalized(), foot = a.y + share * chord;
+  const auto from = [&](const Eigen::VectorXd& start, const BranchPlace& side) {
+    auto place = correct(map_, start, across, side.tangent);
+    if (place && !is_between(a, b, foot, *place)) place.reset();
     return place;
-  for (const BranchPlace* side : {&a, &b})
-    if (const auto place = place_along(*side, s, (b.y - a.y).norm())) return place;
+  };
+  if (auto place = from(foot, share < 0.5 ? a : b)) return place;
+  // At a kink of the map Newton's method goes to and fro between its two sides. From the tangent of either it
+  // stays on that side, where the curve is smooth.
+  for (const BranchPlace* side : {&a, &b}) {
+    const double rate = across.dot(side->tangent);
+    if (rate == 0.0) continue;
+    if (auto place = from(side->y + across.dot(foot - side->y) / rate * side->tangent, *side)) return place;
+  }
   return std::nullopt;
 }
 
-// At a kink of the map Newton's method goes to and fro between its two sides. From the tangent of either it
-// stays on that side, where the curve is smooth.
-std::optional<BranchPlace> PartOfBranch::place_along(const BranchPlace& side, double s, double within) const {
-  constexpr double kNear = 2.0;
-  const double rate = from_.tangent.dot(side.tangent);
-  if (rate == 0.0) return std::nullopt;
-  auto place = correct(map_, side.y + (s - at(side)) / rate * side.tangent, from_.tangent, side.tangent);
-  return place && (place->y - side.y).norm() < kNear * within ? place : std::nullopt;
-}
-
-std::optional<BranchPlace> PartOfBranch::place_near(double s, const BranchPlace& a,
+std::optional<BranchPlace> PartOfBranch::place_near(double share, const BranchPlace& a,
                                                     const BranchPlace& b) const {
-  if (const auto there = place(s, a, b)) return there;
-  const double from = at(a), length = at(b) - from;
-  for (const double each : {0.5, 0.25, 0.75, 0.1, 0.9})
-    if (const auto beside = place(from + each * length, a, b)) return beside;
+  for (const double each : {share, 0.5, 0.25, 0.75, 0.1, 0.9})
+    if (const auto found = place(each, a, b)) return found;
   return std::nullopt;
 }
 
-// By regula falsi with halved ends (Illinois), each third step by halving the bracket.
+// By regula falsi with halved ends (Illinois); by halving the bracket where that has not done so.
 BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
   constexpr int kMostSteps = 100;
   constexpr double kTolerance = 1e-11, kNoLength = 1e-15;
   BranchPlace a = part.from(), b = part.to();
   double fa = function(a), fb = function(b);
   BranchPlace best = std::abs(fa) < std::abs(fb) ? a : b;
-  for (int i = 0; i < kMostSteps && part.at(b) - part.at(a) > kNoLength; ++i) {
-    const double sa = part.at(a), sb = part.at(b);
-    const auto place = part.place_near(i % 3 == 2 ? 0.5 * (sa + sb) : (sa * fb - sb * fa) / (fb - fa), a, b);
+  double before = HUGE_VAL;
+  for (int i = 0; i < kMostSteps && (b.y - a.y).norm() > kNoLength; ++i) {
+    const double length = (b.y - a.y).norm();
+    const auto place = part.place_near(length > 0.5 * before ? 0.5 : fa / (fa - fb), a, b);
+    before = length;
     if (!place) break;
     const double f = function(*place);
     if (std::abs(f) <= std::abs(function(best))) best = *place;
@@ -54,9 +70,9 @@ BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
     }
   }
   // For a jump no place has a small value: it lies within the bracket, whatever is smallest elsewhere.
-  if (std::abs(function(best)) > BranchRoot::kJump)
+  if ((a.grazes || b.grazes) && std::abs(function(best)) > BranchRoot::kJump)
     best = std::abs(function(a)) < std::abs(function(b)) ? a : b;
-  return {best, function(best), part.at(b) - part.at(a)};
+  return {best, function(best), (b.y - a.y).norm()};
 }
 
 }  // namespace frahm::periodic

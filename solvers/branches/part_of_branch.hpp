@@ -19,14 +19,13 @@ class PartOfBranch {
   const BranchPlace& to() const { return to_; }
   BranchMap& map() const { return map_; }
   double at(const BranchPlace& place) const { return from_.tangent.dot(place.y - from_.y); }
-  // The place at s, searched from the chord between two that are known.
-  std::optional<BranchPlace> place(double s, const BranchPlace& a, const BranchPlace& b) const;
+  // Where the plane across the chord between two places that are known, at this share of it, meets the
+  // branch.
+  std::optional<BranchPlace> place(double share, const BranchPlace& a, const BranchPlace& b) const;
   // Where none is found there, another one between them.
-  std::optional<BranchPlace> place_near(double s, const BranchPlace& a, const BranchPlace& b) const;
+  std::optional<BranchPlace> place_near(double share, const BranchPlace& a, const BranchPlace& b) const;
 
  private:
-  std::optional<BranchPlace> place_along(const BranchPlace& side, double s, double within) const;
-
   BranchMap& map_;
   const BranchPlace& from_;
   const BranchPlace& to_;
@@ -42,8 +41,8 @@ struct BranchRoot {
   BranchPlace place;
   double value = 0.0;  // of the function there
   double width = 0.0;  // of the bracket
-  // The function jumps across zero, within the bracket.
-  bool is_jump() const { return std::abs(value) > kJump; }
+  // The function jumps across zero, within the bracket, where an event only just happens.
+  bool is_jump() const { return place.grazes && std::abs(value) > kJump; }
 };
 
 // The root of a function that has different signs at both ends.

@@ -19,12 +19,12 @@ struct Border {
 Border border_of_event(const PartOfBranch& stretch, std::size_t event) {
   constexpr int kMostSteps = 60;
   BranchPlace a = stretch.from(), b = stretch.to();
-  for (int i = 0; i < kMostSteps && stretch.at(b) - stretch.at(a) > BranchRoot::kClosed; ++i) {
-    const auto place = stretch.place_near(0.5 * (stretch.at(a) + stretch.at(b)), a, b);
+  for (int i = 0; i < kMostSteps && (b.y - a.y).norm() > BranchRoot::kClosed; ++i) {
+    const auto place = stretch.place_near(0.5, a, b);
     if (!place) break;
     (place->events[event] == stretch.from().events[event] ? a : b) = *place;
   }
-  return {a.events[event] > b.events[event] ? a : b, stretch.at(b) - stretch.at(a)};
+  return {a.events[event] > b.events[event] ? a : b, (b.y - a.y).norm()};
 }
 
 }  // namespace

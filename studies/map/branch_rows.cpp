@@ -28,6 +28,27 @@ std::size_t dimension_of(const SweepChoice& sweep, std::size_t axis) {
 
 }  // namespace
 
+periodic::ValuesAlong values_along(const Study& study, const std::vector<double>& parameters,
+                                   std::size_t along) {
+  const auto with = [parameters, along](double value) {
+    std::vector<double> changed = parameters;
+    changed[along] = value;
+    return changed;
+  };
+  const auto at = [&study, with](double value) {
+    std::vector<double> there = with(value);
+    mechanics::NetworkValues values;
+    evaluate(study.values, study.parameters, there, values);
+    return values;
+  };
+  const auto derivative = [&study, with, along](double value) {
+    mechanics::NetworkValues by;
+    differentiate(study.values, study.parameters, with(value), along, by);
+    return by;
+  };
+  return {at, derivative};
+}
+
 std::vector<std::vector<std::uint64_t>> branch_rows(const Study& study) {
   const SweepChoice& sweep = *study.sweep();
   const BranchChoice& choice = *sweep.branches;
@@ -109,18 +130,12 @@ std::vector<periodic::Branch> RowBranches::follow(const std::vector<std::uint64_
   const Study& study = plan_.study;
   std::vector<double> parameters = study.parameters.nominal();
   for (std::size_t d = 0; d < row.size(); ++d) set_along(*study.sweep(), d, row[d], parameters);
-  const auto values_at = [&](double value) {
-    parameters[axis().parameter] = value;
-    mechanics::NetworkValues values;
-    evaluate(study.values, study.parameters, parameters, values);
-    return values;
-  };
   constexpr int most_points =
       1000;  // each way: a plain branch takes some hundred, one among chaos any number
   const auto [low, high] = std::ranges::minmax(axis().si_values);
-  return periodic::follow_branches(study.network, quantities_, values_at,
-                                   {.low = low, .high = high, .most_points = most_points},
-                                   study.orbits_wanted(), places, progress);
+  return periodic::follow_branches(
+      study.network, quantities_, values_along(study, parameters, axis().parameter),
+      {.low = low, .high = high, .most_points = most_points}, study.orbits_wanted(), places, progress);
 }
 
 }  // namespace frahm::studies

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -15,6 +16,11 @@ namespace frahm::studies {
 // The first point of each row: an index along each dimension of the map, 0 along the branches' own, the last
 // dimension runs fastest. The study has branches.
 std::vector<std::vector<std::uint64_t>> branch_rows(const Study& study);
+
+// The numbers of the study's network along one of its parameters, the others as given [SI]. The study must
+// outlive them.
+periodic::ValuesAlong values_along(const Study& study, const std::vector<double>& parameters,
+                                   std::size_t along);
 
 // The branches of one row.
 class RowBranches {

@@ -237,16 +237,11 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
     make_room_beside(*options.output, plan, options.fresh);
   }
   const std::vector<periodic::Quantity> quantities = branch_quantities(study);
-  const auto values_at = [&](double value) {
-    parameters[along] = value;
-    mechanics::NetworkValues values;
-    evaluate(study.values, study.parameters, parameters, values);
-    return values;
-  };
   periodic::Branch branch;
   try {
     Counter counter(study, along, options.progress);
-    branch = periodic::follow_branch(study.network, quantities, values_at, wanted, std::ref(counter));
+    branch = periodic::follow_branch(study.network, quantities, values_along(study, parameters, along),
+                                     wanted, std::ref(counter));
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}: {}", study.source.name, error.what());
   }

@@ -5,39 +5,10 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/network_values.hpp"
 #include "solvers/orbits/orbit.hpp"
 
 namespace frahm::tuning {
-namespace {
-
-// sum += factor values
-void add(const mechanics::NetworkValues& values, double factor, mechanics::NetworkValues& sum) {
-  const auto add_list = [factor](const std::vector<double>& list, std::vector<double>& to) {
-    for (std::size_t i = 0; i < list.size(); ++i) to[i] += factor * list[i];
-  };
-  sum.omega += factor * values.omega;
-  add_list(values.mass, sum.mass);
-  add_list(values.element, sum.element);
-  add_list(values.second, sum.second);
-  add_list(values.damping, sum.damping);
-  if (sum.bends.size() < values.bends.size()) sum.bends.resize(values.bends.size());
-  for (std::size_t e = 0; e < values.bends.size(); ++e) {
-    if (sum.bends[e].size() < values.bends[e].size()) sum.bends[e].resize(values.bends[e].size());
-    for (std::size_t i = 0; i < values.bends[e].size(); ++i) {
-      sum.bends[e][i].place += factor * values.bends[e][i].place;
-      sum.bends[e][i].stiffness += factor * values.bends[e][i].stiffness;
-      sum.bends[e][i].damping += factor * values.bends[e][i].damping;
-    }
-  }
-  for (std::size_t i = 0; i < values.excitation.size(); ++i) {
-    sum.excitation[i].amplitude += factor * values.excitation[i].amplitude;
-    sum.excitation[i].phase += factor * values.excitation[i].phase;
-    sum.excitation[i].rod += factor * values.excitation[i].rod;
-  }
-  sum.hysteretic_omega += factor * values.hysteretic_omega;
-}
-
-}  // namespace
 
 TunedResponse::TunedResponse(const Task& task, const DesignSpace& space, std::size_t scenario,
                              const std::vector<periodic::Quantity>& quantities, Effort& effort, Worst worst)
@@ -185,7 +156,7 @@ std::string TunedResponse::differentiate_along_band() {
   mechanics::NetworkValues& along = directions_.back();
   for (std::size_t p = 0; p < interpolations_.size(); ++p) {
     const double rate = interpolations_[p].slope_left;
-    if (rate != 0.0) add(directions_[p], rate, along);
+    if (rate != 0.0) mechanics::add(directions_[p], rate, along);
   }
   const std::size_t quantities = slope_.size();
   const std::span<double> out = std::span<double>(derivative_).first(quantities);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "linear_values.hpp"
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/orbits/closed_forms.hpp"
 #include "solvers/orbits/orbit.hpp"
@@ -48,8 +49,8 @@ NetworkValues stop_values(double r, double zeta, double k, double c) {
 
 // Along the frequency.
 Branch stop_branch(double zeta, double k, double c, const BranchWanted& wanted) {
-  return follow_branch(
-      mass_between_stops(), asked, [=](double r) { return stop_values(r, zeta, k, c); }, wanted);
+  return follow_branch(mass_between_stops(), asked,
+                       linear([=](double r) { return stop_values(r, zeta, k, c); }), wanted);
 }
 
 std::vector<SpecialPoint> of_kind(const Branch& branch, SpecialKind kind) {
@@ -161,7 +162,8 @@ TEST_CASE("A jump of the stability lies where the event that makes it begins") {
   };
   Network network = mass_between_stops();
   network.elements[2].bends.pop_back();
-  const Branch branch = follow_branch(network, asked, values, {.low = 1.9, .high = 2.4, .start = 2.3});
+  const Branch branch =
+      follow_branch(network, asked, linear(values), {.low = 1.9, .high = 2.4, .start = 2.3});
   const auto jumps = of_kind(branch, SpecialKind::stability_jump);
   REQUIRE_FALSE(jumps.empty());
   for (const SpecialPoint& jump : jumps) {
@@ -189,7 +191,7 @@ TEST_CASE("A branch along friction is Den Hartog's until stops begin, and ends a
         .omega = r, .mass = {1.0}, .element = {1.0, 2.0 * zeta, f}, .excitation = {{1.0, 0.0}}};
   };
   const Branch branch =
-      follow_branch(rubbing_mass(false), asked, values, {.low = 0.0, .high = 1.2, .start = 0.5});
+      follow_branch(rubbing_mass(false), asked, linear(values), {.low = 0.0, .high = 1.2, .start = 0.5});
   check_points(branch);
   CHECK(branch.first_end == BranchEnd::range);
   CHECK(branch.last_end == BranchEnd::range);
@@ -206,7 +208,7 @@ TEST_CASE("A branch goes on where stops pass the phase at which it began") {
     return NetworkValues{.omega = r, .mass = {1.0}, .element = {1.0, 0.1, 0.4}, .excitation = {{1.0, 0.0}}};
   };
   const Branch branch =
-      follow_branch(rubbing_mass(false), asked, values, {.low = 0.1, .high = 2.5, .start = 0.1});
+      follow_branch(rubbing_mass(false), asked, linear(values), {.low = 0.1, .high = 2.5, .start = 0.1});
   check_points(branch);
   CHECK(branch.last_end == BranchEnd::range);
   CHECK_THAT(branch.points.back().quantities[0], WithinAbs(classical_amplitude(2.5, 0.05, 0.4), kExact));
@@ -221,7 +223,7 @@ TEST_CASE("The border of sliding without stops under static friction is where it
                          .second = {0.0, 0.0, static_force}};
   };
   const Branch branch =
-      follow_branch(rubbing_mass(true), asked, values, {.low = 0.2, .high = 2.0, .start = 0.5});
+      follow_branch(rubbing_mass(true), asked, linear(values), {.low = 0.2, .high = 2.0, .start = 0.5});
   check_points(branch);
   const auto grazings = of_kind(branch, SpecialKind::grazing);
   REQUIRE(grazings.size() == 1);
@@ -246,7 +248,7 @@ NetworkValues one_stop_values(double r) {
 
 TEST_CASE("A branch of two periods ends where those of one double theirs, at both ends") {
   const auto followed = [](double start, int multiple) {
-    return follow_branch(mass_before_a_stop(), asked, one_stop_values,
+    return follow_branch(mass_before_a_stop(), asked, linear(one_stop_values),
                          {.low = 1.0, .high = 5.0, .start = start, .multiple = multiple});
   };
   const Branch one = followed(1.2, 1), two = followed(3.2, 2);
@@ -290,7 +292,7 @@ TEST_CASE("A subharmonic repeats under the forcing of one period") {
   response.quantities(found);
   REQUIRE(found[0] == 2.0);
   const Branch branch =
-      follow_branch(network, asked, one_stop_values,
+      follow_branch(network, asked, linear(one_stop_values),
                     {.low = 3.0, .high = 3.4, .start = 3.2, .most_points = 2, .multiple = 2});
   const auto start = std::ranges::find(branch.points, 3.2, &BranchPoint::parameter);
   REQUIRE(start != branch.points.end());
@@ -325,7 +327,8 @@ TEST_CASE("A grazing that lies at the section of its orbits has its residual too
                          .second = {0.0, 0.0, 0.0, 0.542},
                          .bends = {{}, {}, {{1.08, 19.8, 0.0}, {1.08, 19.8, 0.0}}, {}}};
   };
-  const Branch branch = follow_branch(network, asked, values, {.low = 0.3, .high = 3.0, .start = 2.354});
+  const Branch branch =
+      follow_branch(network, asked, linear(values), {.low = 0.3, .high = 3.0, .start = 2.354});
   REQUIRE(branch.reason.empty());
   constexpr double kPlace = 1.25960079587108;
   int found = 0;
@@ -355,7 +358,8 @@ TEST_CASE("A branch towards an undamped resonance stays right until its response
                          .excitation = {{kForce, 0.0}},
                          .second = {0.0, 0.1, 0.4}};
   };
-  const Branch branch = follow_branch(network, asked, values, {.low = 2.0, .high = 3.0, .start = 2.0});
+  const Branch branch =
+      follow_branch(network, asked, linear(values), {.low = 2.0, .high = 3.0, .start = 2.0});
   REQUIRE(branch.reason.empty());
   CHECK(branch.last_end == BranchEnd::unbounded);
   CHECK(branch.special.empty());
@@ -401,7 +405,8 @@ TEST_CASE("A branch goes on where a slider begins to slip next to a resonance of
                          .excitation = {{1.0, 0.0}},
                          .second = {0.0, 0.0, kLimit}};
   };
-  const Branch branch = follow_branch(network, asked, values, {.low = kFrom, .high = 1.2, .start = kFrom});
+  const Branch branch =
+      follow_branch(network, asked, linear(values), {.low = kFrom, .high = 1.2, .start = kFrom});
   REQUIRE(branch.reason.empty());
   CHECK(branch.last_end == BranchEnd::unbounded);
   CHECK(of_kind(branch, SpecialKind::jump).empty());
@@ -444,7 +449,8 @@ TEST_CASE("A branch ends where a family of orbits has one value of the parameter
                          .excitation = {{1.0, 0.0}},
                          .second = {0.0, 0.8}};
   };
-  const Branch branch = follow_branch(network, asked, values, {.low = 0.4, .high = 3.0, .start = 0.4});
+  const Branch branch =
+      follow_branch(network, asked, linear(values), {.low = 0.4, .high = 3.0, .start = 0.4});
   REQUIRE(branch.reason.empty());
   CHECK(branch.last_end == BranchEnd::family);
   CHECK(branch.points.back().parameter == Approx(std::sqrt(1.0 + kJoint) / 3.0).epsilon(kExact));
@@ -483,7 +489,7 @@ TEST_CASE("A branch along the force of a slider goes on where the slider slips a
   PeriodicResponse response(MassWithSlider::network(), amplitude);
   double found = 0.0;
   for (const double start : {0.2, 1.0}) {
-    const Branch branch = follow_branch(MassWithSlider::network(), amplitude, values,
+    const Branch branch = follow_branch(MassWithSlider::network(), amplitude, linear(values),
                                         {.low = 0.2, .high = 2.0, .start = start});
     INFO("from " << start << " " << branch.reason);
     CHECK(branch.first_end == BranchEnd::range);
@@ -504,7 +510,7 @@ TEST_CASE("A branch along the force of a slider goes on where the slider slips a
 TEST_CASE("A branch goes on where the rest position of a stuck slider meets the end of its interval") {
   constexpr double kDamping = 0.1;
   const auto values = [](double r) { return MassWithSlider{.frequency = r, .steady = 0.3}.values(); };
-  const Branch branch = follow_branch(MassWithSlider::network(), {{Measure::amplitude, 0}}, values,
+  const Branch branch = follow_branch(MassWithSlider::network(), {{Measure::amplitude, 0}}, linear(values),
                                       {.low = 0.3, .high = 3.0, .start = 2.5});
   CHECK(branch.first_end == BranchEnd::range);
   CHECK(branch.last_end == BranchEnd::range);
@@ -526,8 +532,8 @@ TEST_CASE("A branch starts where what rests is at the end of its interval, at th
     at.excitation[0].amplitude = amplitude;
     return at;
   };
-  const Branch branch =
-      follow_branch(MassWithSlider::network(), asked, values, {.low = 0.1, .high = 2.0, .start = 0.1});
+  const Branch branch = follow_branch(MassWithSlider::network(), asked, linear(values),
+                                      {.low = 0.1, .high = 2.0, .start = 0.1});
   INFO(branch.reason);
   CHECK(branch.reason.empty());
   CHECK(branch.last_end == BranchEnd::range);
@@ -540,7 +546,7 @@ TEST_CASE("A branch over a wide range is not called closed where other parts of 
     return at;
   };
   const Branch branch =
-      follow_branch(mass_between_stops(), asked, values, {.low = 0.05, .high = 20.0, .start = 0.05});
+      follow_branch(mass_between_stops(), asked, linear(values), {.low = 0.05, .high = 20.0, .start = 0.05});
   CHECK(branch.first_end == BranchEnd::range);
   CHECK(branch.last_end != BranchEnd::closed);
   CHECK(branch.points.back().parameter > 1.0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "linear_values.hpp"
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/response/periodic_response.hpp"
 
@@ -57,7 +58,7 @@ std::vector<SearchedPlace> places(double low, double high, int count) {
 
 std::vector<Branch> followed(const Stopped& system, double low, double high,
                              const std::vector<SearchedPlace>& searched) {
-  return follow_branches(system.network(), asked, system, {.low = low, .high = high}, {.starts = 16},
+  return follow_branches(system.network(), asked, linear(system), {.low = low, .high = high}, {.starts = 16},
                          searched);
 }
 
@@ -123,23 +124,39 @@ TEST_CASE("Every stable orbit that is found lies on one branch, subharmonics too
   }
 }
 
-// Of a mass that rubs with force f_k and is held by up to f_s, from r = 0.2 to 1.8.
-std::vector<Branch> held_branches(double f_k, double f_s) {
-  Network network{.masses = {"x"},
-                  .prescribed = {},
-                  .elements = {{"spring", ElementType::spring, ground, mass},
-                               {"damper", ElementType::damper, ground, mass},
-                               {"friction", ElementType::coulomb, ground, mass}},
-                  .excitations = {{ExcitationKind::force, 0, 1}}};
-  network.elements[2].has_static_force = true;
-  const auto values = [=](double r) {
+// x'' + 0.1 x' + x + rubbing with force f_k, held by up to f_s: cos(r tau).
+struct Held {
+  double f_k, f_s;
+
+  static Network network() {
+    Network network{.masses = {"x"},
+                    .prescribed = {},
+                    .elements = {{"spring", ElementType::spring, ground, mass},
+                                 {"damper", ElementType::damper, ground, mass},
+                                 {"friction", ElementType::coulomb, ground, mass}},
+                    .excitations = {{ExcitationKind::force, 0, 1}}};
+    network.elements[2].has_static_force = true;
+    return network;
+  }
+  NetworkValues operator()(double r) const {
     return NetworkValues{.omega = r,
                          .mass = {1.0},
                          .element = {1.0, 0.1, f_k},
                          .excitation = {{1.0, 0.0}},
                          .second = {0.0, 0.0, f_s}};
-  };
-  return follow_branches(network, asked, values, {.low = 0.2, .high = 1.8}, {}, places(0.2, 1.8, 65));
+  }
+};
+
+std::vector<Branch> held_branches(double f_k, double f_s) {
+  return follow_branches(Held::network(), asked, linear(Held{f_k, f_s}), {.low = 0.2, .high = 1.8}, {},
+                         places(0.2, 1.8, 65));
+}
+
+std::vector<double> parameters_of(const Branch& branch, SpecialKind kind) {
+  std::vector<double> found;
+  for (const SpecialPoint& each : branch.special)
+    if (each.kind == kind) found.push_back(each.at.parameter);
+  return found;
 }
 
 TEST_CASE("A branch that goes into another ends there, so that no part is followed twice") {
@@ -155,15 +172,59 @@ TEST_CASE("A branch that goes into another ends there, so that no part is follow
 }
 
 TEST_CASE("A branch ends where the static force throws the motion elsewhere, and says so") {
-  const std::vector<Branch> branches = held_branches(0.2, 1.2);
-  const auto thrown = std::ranges::find(branches, BranchEnd::jump, &Branch::last_end);
-  REQUIRE(thrown != branches.end());
-  CHECK(thrown->first_end == BranchEnd::jump);
-  for (const SpecialPoint& end : {thrown->special.front(), thrown->special.back()}) {
-    CHECK(end.kind == SpecialKind::jump);
-    CHECK(end.element == 2U);
-    CHECK(end.residual < 1e-9);
+  const std::vector<Branch> branches = held_branches(0.1, 1.2);
+  const std::vector<double> grazing = parameters_of(branches.front(), SpecialKind::grazing);
+  REQUIRE(grazing.size() == 1);  // of both stops of the symmetric orbit at once
+  std::vector<SpecialPoint> jumps;
+  for (const Branch& each : branches) {
+    if (each.points.front().multiple != 2) continue;
+    CHECK(each.first_end == BranchEnd::jump);
+    jumps.push_back(each.special.front());
+    // Its other end is where orbits of half the period change their events.
+    CHECK(each.last_end == BranchEnd::origin);
+    CHECK_THAT(each.special.back().at.parameter, WithinAbs(grazing.front(), kSame));
   }
+  REQUIRE(jumps.size() == 2);  // mirror images of one another
+  CHECK_THAT(jumps[0].at.parameter, WithinAbs(jumps[1].at.parameter, kSame));
+  for (const SpecialPoint& jump : jumps) {
+    CHECK(jump.kind == SpecialKind::jump);
+    CHECK(jump.element == 2U);
+    CHECK(jump.residual < 1e-9);
+  }
+}
+
+// Below the value at which both stops of the symmetric orbit begin, three branches of stopping orbits begin.
+TEST_CASE(
+    "A branch that begins where a symmetric orbit grazes twice at once meets it there, without a jump") {
+  const std::vector<Branch> branches = held_branches(0.2, 1.2);
+  const std::vector<double> meeting = parameters_of(branches.front(), SpecialKind::grazing);
+  REQUIRE(meeting.size() == 1);
+  const auto joins = [](const Branch& each) { return each.first_end == BranchEnd::joined; };
+  const auto joining = std::ranges::find_if(branches, joins);
+  REQUIRE(joining != branches.end());
+  CHECK(joining->last_end == BranchEnd::joined);
+  for (const SpecialPoint& each : joining->special) CHECK(each.at.parameter < meeting.front());
+  // It leads from an orbit to its mirror image, and both halves are alike.
+  for (const SpecialKind kind : {SpecialKind::period_doubling, SpecialKind::grazing}) {
+    const std::vector<double> both = parameters_of(*joining, kind);
+    REQUIRE(both.size() == 2);
+    CHECK_THAT(both[0], WithinAbs(both[1], kSame));
+  }
+  // Halfway it crosses the symmetric branch.
+  const std::vector<double> fold = parameters_of(*joining, SpecialKind::fold);
+  REQUIRE(fold.size() == 1);
+  CHECK_THAT(fold.front(), WithinAbs(parameters_of(branches.front(), SpecialKind::branching).at(0), kSame));
+}
+
+TEST_CASE("A branch that comes round to a part of itself ends there, and tells nothing twice") {
+  const Branch branch =
+      follow_branch(Held::network(), asked, linear(Held{0.2, 0.9}), {.low = 0.2, .high = 1.8, .start = 1.5});
+  CHECK(branch.first_end == BranchEnd::joined);
+  CHECK(branch.last_end == BranchEnd::range);
+  for (const SpecialKind kind : {SpecialKind::fold, SpecialKind::stability_jump})
+    CHECK(parameters_of(branch, kind).size() == 1);
+  CHECK(parameters_of(branch, SpecialKind::period_doubling).size() == 2);  // of an orbit and its mirror image
+  CHECK(parameters_of(branch, SpecialKind::grazing).size() == 3);
 }
 
 TEST_CASE("A system of one response has one branch, followed once") {
@@ -177,7 +238,7 @@ TEST_CASE("A system of one response has one branch, followed once") {
     return NetworkValues{.omega = r, .mass = {1.0}, .element = {1.0, 0.1, 0.2}, .excitation = {{1.0, 0.0}}};
   };
   const auto branches =
-      follow_branches(network, asked, values, {.low = 0.5, .high = 2.0}, {}, places(0.5, 2.0, 7));
+      follow_branches(network, asked, linear(values), {.low = 0.5, .high = 2.0}, {}, places(0.5, 2.0, 7));
   REQUIRE(branches.size() == 1);
   CHECK(branches.front().points.front().parameter == 0.5);
   CHECK_THAT(branches.front().points.back().parameter, WithinAbs(2.0, kSame));
