@@ -45,7 +45,8 @@ class EnergyScreen {
 
   void list(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
   void list_losses(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
-  void list_inputs(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
+  void list_inputs();
+  void set_driving_forces(const Mode<N, H>& mode, const mechanics::LinearSystem& system);
   std::size_t place_of(const Form& form);
   void sample(const Step& step);
   void sample(const Expansion<N, H>& x, double length);
@@ -62,6 +63,7 @@ class EnergyScreen {
   std::vector<Entry> of_states_, of_oscillators_;  // of the forms, that are not zero
   std::vector<Power> losses_, inputs_;
   std::size_t structure_ = 0;  // the first of the forms that the structure's damping takes
+  std::size_t driving_ = 0;    // the first of the inputs that drive a prescribed node
   Rows step_rows_;
   std::vector<typename Rows::Row> rows_;  // of each form, in the mode
   std::vector<AtNodes> values_;           // of each form
@@ -73,7 +75,6 @@ bool EnergyScreen<N, H>::is_balanced(const Orbit<N, H>& orbit, const mechanics::
                                      OrbitSteps<N, H>& steps) {
   constexpr double kTabulated = 3.0;  // steps: what the rows cost
   const StepEquations<N, H>& eq = flow_.equations();
-  const bool depends_on_mode = eq.bends.count() > 0 || eq.motion.rows() > 0;
   input_ = loss_ = 0.0;
   step_rows_.forget();
   std::size_t segment = 0;
@@ -83,7 +84,9 @@ bool EnergyScreen<N, H>::is_balanced(const Orbit<N, H>& orbit, const mechanics::
     const Mode<N, H>& mode = flow_.mode(step.mode);
     if (first == nullptr) {
       first = &step;
-      if (segment == 0 || depends_on_mode) list(mode, system);
+      const bool is_listed = segment > 0 && eq.bends.count() == 0;
+      if (!is_listed) list(mode, system);
+      if (!is_listed || eq.motion.rows() > 0) set_driving_forces(mode, system);
       is_tabulated = !eq.is_large() && orbit.passage.segments[segment].length >= kTabulated;
       for (std::size_t f = 0; is_tabulated && f < listed_.size(); ++f)
         rows_[f] = step_rows_.of(listed_[f], mode);
@@ -110,10 +113,9 @@ void EnergyScreen<N, H>::list(const Mode<N, H>& mode, const mechanics::LinearSys
   losses_.clear();
   inputs_.clear();
   list_losses(mode, system);
-  list_inputs(mode, system);
+  list_inputs();
   values_.resize(listed_.size());
   rows_.resize(listed_.size());
-  find_entries();
 }
 
 // A form takes two masses, of however many there are.
@@ -173,9 +175,9 @@ void EnergyScreen<N, H>::list_losses(const Mode<N, H>& mode, const mechanics::Li
   }
 }
 
-// Outside forces on masses, and the force that drives each prescribed node.
+// Outside forces on masses, and a place for the force that drives each prescribed node.
 template <int N, int H>
-void EnergyScreen<N, H>::list_inputs(const Mode<N, H>& mode, const mechanics::LinearSystem& system) {
+void EnergyScreen<N, H>::list_inputs() {
   const StepEquations<N, H>& eq = flow_.equations();
   for (Eigen::Index i = 0; i < eq.masses(); ++i) {
     if (eq.applied_force.row(i).isZero(0.0)) continue;
@@ -185,13 +187,23 @@ void EnergyScreen<N, H>::list_inputs(const Mode<N, H>& mode, const mechanics::Li
     const std::size_t place = place_of(force);
     inputs_.push_back({1.0, place, place_of(velocity)});
   }
+  driving_ = inputs_.size();
   for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
-    const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
     Form velocity = forms_.zero();
     velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
-    const std::size_t place = place_of(forms_.node_force(node, system, mode));
-    inputs_.push_back({1.0, place, place_of(velocity)});
+    const std::size_t place = place_of(velocity);
+    listed_.push_back(forms_.zero());
+    inputs_.push_back({1.0, listed_.size() - 1, place});
   }
+}
+
+template <int N, int H>
+void EnergyScreen<N, H>::set_driving_forces(const Mode<N, H>& mode, const mechanics::LinearSystem& system) {
+  for (std::size_t i = driving_; i < inputs_.size(); ++i) {
+    const mechanics::Node node{mechanics::NodeKind::prescribed, i - driving_};
+    listed_[inputs_[i].x] = forms_.node_force(node, system, mode);
+  }
+  find_entries();
 }
 
 template <int N, int H>
