@@ -81,6 +81,15 @@ const char* end_sentence(BranchEnd end) {
   return "";
 }
 
+void go_along(const Branch& branch,
+              const std::function<void(const BranchPoint& at, const SpecialPoint* special)>& call) {
+  auto special = branch.special.begin();
+  for (std::size_t i = 0; i <= branch.points.size(); ++i) {
+    for (; special != branch.special.end() && special->next == i; ++special) call(special->at, &*special);
+    if (i < branch.points.size()) call(branch.points[i], nullptr);
+  }
+}
+
 Branch follow_branch(const mechanics::Network& network, const std::vector<Quantity>& quantities,
                      const ValuesAlong& values, const BranchWanted& wanted, const BranchProgress& progress) {
   FollowedBranch followed(network, quantities, values, wanted);

@@ -38,7 +38,7 @@ enum class SpecialKind {
   torus,            // a pair of complex multipliers passes the unit circle
   stability_jump,   // a multiplier jumps across the unit circle where an event begins
   grazing,          // an event begins or ends to happen: a stop is only just touched, a contact only just
-                    // stops or lets go
+                    // stops or lets go; or two events change their order
   jump,             // where the branch ends: an event begins that throws the motion elsewhere
   corner,           // a grazing where the map has a kink and the parameter turns back: dp/ds jumps across 0
 };
@@ -47,7 +47,7 @@ const char* kind_name(SpecialKind kind);  // "fold", "period_doubling"
 struct SpecialPoint {
   SpecialKind kind = SpecialKind::fold;
   BranchPoint at;
-  std::size_t after = 0;  // index of the point of the branch before it
+  std::size_t next = 0;  // index of the point of the branch after it; their number beyond the last
   // For a grazing, a jump, and of a corner where it is known: whose event it is, index in Network::elements.
   std::optional<std::size_t> element{};
   // For the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; the
@@ -78,6 +78,10 @@ struct Branch {
   BranchEnd first_end{}, last_end{};  // before its first point and after its last; closed: these are the same
   std::string reason;                 // why there is none; empty where there is
 };
+
+// Calls with each point and special point (null: a point) in their order along the curve.
+void go_along(const Branch& branch,
+              const std::function<void(const BranchPoint& at, const SpecialPoint* special)>& call);
 
 struct BranchWanted {
   double low = 0.0, high = 0.0;  // range of the parameter, low < high; its length scales the steps

@@ -24,24 +24,32 @@ Polynomial bend_guard_over(const Expansion<kAnySize, kAnySize>& x, const StepBen
 
 }  // namespace
 
-std::vector<int> count_events(const AnyFlow& flow, const AnyPassage& passage) {
+std::vector<std::size_t> list_events(const AnyFlow& flow, const AnyPassage& passage) {
   constexpr double kNoLength = 1e-10;  // of the period: the first slip of a state that should be at rest
   const auto& eq = flow.equations();
   const auto bends = static_cast<std::size_t>(eq.bends.count());
-  std::vector<int> count(bends + static_cast<std::size_t>(eq.contacts()), 0);
+  const std::size_t all = bends + static_cast<std::size_t>(eq.contacts());
+  std::vector<std::size_t> list;
   const Mode<kAnySize, kAnySize>* before = nullptr;
   for (const auto& segment : passage.segments) {
     if (before == nullptr && segment.length <= kNoLength * eq.period) continue;
     const auto& mode = flow.mode(segment.mode);
-    for (std::size_t i = 0; before != nullptr && i < count.size(); ++i) {
+    for (std::size_t i = 0; before != nullptr && i < all; ++i) {
       const auto j = static_cast<Eigen::Index>(i < bends ? i : i - bends);
       const bool changes = i < bends ? contains(mode.beyond ^ before->beyond, j)
                                      : contains(mode.stuck ^ before->stuck, j) ||
                                            (!contains(mode.stuck, j) && mode.sign(j) != before->sign(j));
-      count[i] += changes ? 1 : 0;
+      if (changes) list.push_back(i);
     }
     before = &mode;
   }
+  return list;
+}
+
+std::vector<int> count_events(const AnyFlow& flow, const AnyPassage& passage) {
+  const auto& eq = flow.equations();
+  std::vector<int> count(static_cast<std::size_t>(eq.bends.count() + eq.contacts()), 0);
+  for (const std::size_t event : list_events(flow, passage)) ++count[event];
   return count;
 }
 

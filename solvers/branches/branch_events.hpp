@@ -14,7 +14,10 @@ using AnyOrbit = Orbit<kAnySize, kAnySize>;
 using AnyPassage = Passage<kAnySize, kAnySize>;
 using AnyFlow = Flow<kAnySize, kAnySize>;
 
-// How often each bend and each contact changes its state. The passage belongs to the flow as it is set.
+// Which bend or contact changes its state, in the order of time. The passage belongs to the flow as it is
+// set.
+std::vector<std::size_t> list_events(const AnyFlow& flow, const AnyPassage& passage);
+// How often each does.
 std::vector<int> count_events(const AnyFlow& flow, const AnyPassage& passage);
 // The least distance from zero of an extreme of bend j's guards over an orbit, relative to the guard's size.
 double distance_from_bend(const AnyFlow& flow, const AnyOrbit& orbit, Eigen::Index j);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solvers/branches/doubling_origin.hpp"
+#include "solvers/branches/part_of_branch.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -37,24 +38,28 @@ class BranchWalk {
     if (leaves_range(here_.y, here_.tangent)) return BranchEnd::range;
     for (int points = 1; points < wanted_.most_points;) {
       const auto next = take_step();
-      if (!next) {
+      if (next) {
+        if (const auto origin = origin_of_doubling(map_, here_, *next)) {
+          found_({here_, nullptr, {*origin}});
+          return BranchEnd::origin;
+        }
+      }
+      auto special = next ? between(*next) : std::nullopt;
+      if (!special) {
         step_ *= 0.5;
         if (step_ >= limits_.least || leave_slip()) continue;
+        if (meets_family()) return BranchEnd::family;
         if (!pass_corner()) return end_here();
         continue;
       }
-      if (const auto origin = origin_of_doubling(map_, here_, *next)) {
-        found_({here_, nullptr, {*origin}});
-        return BranchEnd::origin;
-      }
       const double p = next->y[next->y.size() - 1];
-      if (p <= 0.0 || p >= 1.0) return accept(*next), BranchEnd::range;
+      if (p <= 0.0 || p >= 1.0) return accept(*next, std::move(*special)), BranchEnd::range;
       ++points;
       if (points > kLeastLoop) {
         for (const BranchPlace& each : firsts_)
-          if (passes(each, *next)) return accept(each), BranchEnd::closed;
+          if (passes(each, *next)) return accept(each, special_places(map_, here_, each)), BranchEnd::closed;
       }
-      if (!accept(*next)) return BranchEnd::joined;
+      if (!accept(*next, std::move(*special))) return BranchEnd::joined;
       if (here_.y.norm() > limits_.most_size) return BranchEnd::unbounded;
       if (here_.section_is_near_event) move_section(here_.better_section);
       if (here_.rests_at_limit) leave_limit();
@@ -90,6 +95,27 @@ class BranchWalk {
     const double angle = std::acos(std::clamp(here_.tangent.dot(next->tangent), -1.0, 1.0));
     const bool serves = angle <= limits_.most_angle && shift <= limits_.most_shift;
     return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
+  }
+
+  // What is special between here and the next place. Nothing where the step is too long to know: one of the
+  // places is not solved, or halfway something happens that both ends do not show.
+  std::optional<std::vector<SpecialPlace>> between(const BranchPlace& next) const {
+    auto special = special_places(map_, here_, next);
+    const bool is_known = std::ranges::all_of(special, &SpecialPlace::is_solved) && shows_all(next);
+    return is_known || step_ <= limits_.kink ? std::optional(std::move(special)) : std::nullopt;
+  }
+  bool shows_all(const BranchPlace& next) const {
+    const auto middle = PartOfBranch(map_, here_, next).place(0.5, here_, next);
+    if (!middle) return false;
+    const auto is_between = [](auto value, auto a, auto b) {
+      return value >= std::min(a, b) && value <= std::max(a, b);
+    };
+    for (std::size_t event = 0; event < middle->events.size(); ++event)
+      if (!is_between(middle->events[event], here_.events[event], next.events[event])) return false;
+    if (map_.system().monotone) return true;
+    return is_between(middle->unstable(), here_.unstable(), next.unstable()) &&
+           is_between(middle->parameter_rate() > 0.0, here_.parameter_rate() > 0.0,
+                      next.parameter_rate() > 0.0);
   }
 
   // Whether the orbit of a place takes the multiple divided by a prime: it is on another branch, which
@@ -164,7 +190,7 @@ class BranchWalk {
     constexpr double kNear = 30.0;  // several events may begin together, each with its own map
     constexpr double kSame = 1e-4;
     auto next = correct(map_, here_.y + distance * way, way, way);
-    if (!next || !next->is_single || next->events == here_.events) return std::nullopt;
+    if (!next || !next->is_single || next->order == here_.order) return std::nullopt;
     if (const double p = next->y[next->y.size() - 1]; p < 0.0 || p > 1.0) return std::nullopt;
     const Eigen::VectorXd on = next->y - here_.y;
     if (on.norm() > kNear * distance) return std::nullopt;
@@ -188,14 +214,24 @@ class BranchWalk {
 
   SpecialPlace corner_before(const BranchPlace& next) const {
     const bool turns = (here_.parameter_rate() > 0.0) != (next.parameter_rate() > 0.0);
+    const SpecialKind kind = turns ? SpecialKind::corner : SpecialKind::grazing;
+    if (next.events == here_.events) return {kind, here_, std::nullopt, limits_.least};
     const std::size_t event = event_before(next.events);
-    return {turns ? SpecialKind::corner : SpecialKind::grazing, here_,
-            element_of_event(map_.assembly(), event), residual_of_grazing(map_, here_, limits_.least, event)};
+    return {kind, here_, element_of_event(map_.assembly(), event),
+            residual_of_grazing(map_, here_, limits_.least, event)};
   }
 
   // The first that happens more or less often there than here.
   std::size_t event_before(const std::vector<int>& there) const {
     return static_cast<std::size_t>(std::ranges::mismatch(here_.events, there).in1 - here_.events.begin());
+  }
+
+  bool meets_family() const {
+    for (double step = limits_.least; step < limits_.kink; step *= 10.0) {
+      const auto next = correct(map_, here_.y + step * here_.tangent, here_.tangent, here_.tangent);
+      if (next && !next->is_single) return true;
+    }
+    return false;
   }
 
   // Why no place continues the branch.
@@ -210,8 +246,6 @@ class BranchWalk {
     } catch (const mechanics::MechanicsError&) {
       return BranchEnd::rule;
     }
-    const auto next = correct(map_, here_.y + limits_.least * here_.tangent, here_.tangent, here_.tangent);
-    if (next && !next->is_single) return BranchEnd::family;
     const Shot shot = map_.shoot(beyond);
     if (shot.failed) return BranchEnd::lost;
     const std::vector<int> there = count_events(map_.flow(), shot.passage);
@@ -236,11 +270,11 @@ class BranchWalk {
   }
 
   // False: the branch is known from there on.
-  bool accept(const BranchPlace& next) {
+  bool accept(const BranchPlace& next, std::vector<SpecialPlace> special) {
     constexpr double kGrow = 1.5;
     constexpr int kFast = 4;  // Newton's steps
     const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
-    const bool is_new = found_({here_, &next, special_places(map_, here_, next)});
+    const bool is_new = found_({here_, &next, std::move(special)});
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
       step_ = std::min(kGrow * step_, wanted_.largest_step * std::max(1.0, next.y.norm()));
     here_ = next;
@@ -260,10 +294,12 @@ class BranchWalk {
     map_.set_section(to);
     const Eigen::VectorXd chord = (now - before).normalized();
     const Eigen::VectorXd along = Eigen::VectorXd::Unit(now.size(), now.size() - 1);
-    const auto place = correct(map_, now, chord, chord);
+    auto place = correct(map_, now, chord, chord);
     const auto start = correct(map_, first, along, firsts_.front().parameter_rate() * along);
     if (!place || !start) return map_.set_section(from), false;
-    here_ = *place;
+    // The parameter goes on the same way at each section.
+    if ((place->parameter_rate() > 0.0) != (here_.parameter_rate() > 0.0)) place->tangent *= -1.0;
+    here_ = std::move(*place);
     firsts_ = {*start};
     add_later_firsts();
     passed_ = {before, here_.y};

@@ -25,7 +25,7 @@ bool is_curve(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& tangent)
 }  // namespace
 
 int BranchPlace::unstable() const {
-  return static_cast<int>((multipliers.array().abs() > 1.0).count());
+  return static_cast<int>((multipliers.array().abs() > 1.0 + kOutside).count());
 }
 
 Eigen::VectorXd branch_tangent(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& towards) {
@@ -60,6 +60,7 @@ std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start,
       place.is_single = is_curve(shot.derivative, place.tangent);
       place.multipliers = map.multipliers(shot);
       place.events = count_events(map.flow(), shot.passage);
+      place.order = list_events(map.flow(), shot.passage);
       return place;
     }
     if (iteration > 3 && residual > 2.0 * before) return std::nullopt;

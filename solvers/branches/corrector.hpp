@@ -13,7 +13,8 @@ struct BranchPlace {
   Eigen::VectorXd y;        // (BranchMap)
   Eigen::VectorXd tangent;  // dy/ds of the curve, of length 1
   Eigen::VectorXcd multipliers;
-  std::vector<int> events;
+  std::vector<int> events;         // how often each happens
+  std::vector<std::size_t> order;  // in which they do
   int newton_iterations = 0;
   bool is_single = true;        // false: a whole family of orbits has this value of the parameter
   bool grazes = false;          // an event only just happens: the map may have a kink here
@@ -22,7 +23,8 @@ struct BranchPlace {
   double better_section = 0.0;  // then: omega t [rad] in the middle of the longest stretch without events
 
   double parameter_rate() const { return tangent[tangent.size() - 1]; }  // dp/ds, scaled
-  // Multipliers outside the unit circle.
+  // Multipliers outside the unit circle; those of undamped motions are on it but for rounding.
+  static constexpr double kOutside = 1e-10;
   int unstable() const;
 };
 

@@ -21,11 +21,11 @@ void join(Branch& branch, std::vector<BranchPoint>&& back, std::vector<SpecialPo
   branch.points.push_back(first);
   std::ranges::move(on, std::back_inserter(branch.points));
   for (SpecialPoint& special : special_back) {
-    special.after = before - std::min(before, special.after + 1);
+    special.next = before - special.next;
     branch.special.push_back(std::move(special));
   }
   for (SpecialPoint& special : special_on) {
-    special.after += before;
+    special.next += before + 1;
     branch.special.push_back(std::move(special));
   }
   double start = branch.points.front().arclength;
@@ -89,8 +89,9 @@ bool FollowedBranch::is_known_after(const Step& step, const IsKnown& is_known) {
   const double parameter = map_.parameter(step.to);
   const bool is_elsewhere = is_known && is_known(parameter, orbit);
   const auto is_apart = [&step](const Step& other) {
+    constexpr double kApart = 1e-3;  // of the arclength
     const double reach = (step.to - step.from).norm() + (other.to - other.from).norm();
-    return std::abs(step.arclength - other.arclength) > 2.0 * reach;
+    return std::abs(step.arclength - other.arclength) > std::max(kApart, 2.0 * reach);
   };
   const bool is_known_here = is_elsewhere || passes(parameter, orbit, is_apart);
   map_.set_section(section);

@@ -69,10 +69,13 @@ BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
       a = *place, fa = f, fb *= 0.5;
     }
   }
-  // For a jump no place has a small value: it lies within the bracket, whatever is smallest elsewhere.
-  if ((a.grazes || b.grazes) && std::abs(function(best)) > BranchRoot::kJump)
-    best = std::abs(function(a)) < std::abs(function(b)) ? a : b;
-  return {best, function(best), (b.y - a.y).norm()};
+  BranchRoot root{.place = best, .value = function(best), .width = (b.y - a.y).norm()};
+  root.has_event = a.events != b.events || a.grazes || b.grazes;
+  if (!root.is_jump()) return root;
+  // No place next to a jump has a small value, whatever is smallest elsewhere.
+  root.place = std::abs(function(a)) < std::abs(function(b)) ? a : b;
+  root.value = function(root.place);
+  return root;
 }
 
 }  // namespace frahm::periodic

@@ -37,12 +37,16 @@ using PlaceFunction = std::function<double(const BranchPlace&)>;
 struct BranchRoot {
   static constexpr double kJump = 1e-6;     // what is left of an equation that a jump crosses is larger
   static constexpr double kClosed = 1e-12;  // a bracket
+  static constexpr double kNarrow = 1e-7;   // one that could not be closed further, next to an event
 
   BranchPlace place;
-  double value = 0.0;  // of the function there
-  double width = 0.0;  // of the bracket
-  // The function jumps across zero, within the bracket, where an event only just happens.
-  bool is_jump() const { return place.grazes && std::abs(value) > kJump; }
+  double value = 0.0;      // of the function there
+  double width = 0.0;      // of the bracket
+  bool has_event = false;  // within the bracket
+  // The function jumps across zero, within the bracket.
+  bool is_jump() const { return has_event && width <= kNarrow && std::abs(value) > kJump; }
+  // Next to where another branch crosses, tangents are known to fewer digits.
+  bool is_solved() const { return is_jump() || std::abs(value) <= 10.0 * kJump; }
 };
 
 // The root of a function that has different signs at both ends.

@@ -32,8 +32,8 @@ Border border_of_event(const PartOfBranch& stretch, std::size_t event) {
 double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event) {
   if (event >= map.assembly().bends().element.size()) return width;
   Shot shot = map.shoot(place.y);
-  return distance_from_bend(map.flow(), map.orbit(place.y, std::move(shot)),
-                            static_cast<Eigen::Index>(event));
+  return std::min(width, distance_from_bend(map.flow(), map.orbit(place.y, std::move(shot)),
+                                            static_cast<Eigen::Index>(event)));
 }
 
 namespace {
@@ -53,21 +53,22 @@ void add_grazings(const PartOfBranch& stretch, std::vector<SpecialPlace>& found)
         });
     if (known) continue;
     found.push_back({SpecialKind::grazing, border.place, element,
-                     residual_of_grazing(stretch.map(), border.place, border.width, event)});
+                     residual_of_grazing(stretch.map(), border.place, border.width, event),
+                     border.width <= BranchRoot::kNarrow});
   }
 }
 
 // A real multiplier that passes +1 where the parameter turns belongs to the fold.
 void add_stability_change(const PartOfBranch& stretch, bool has_fold, std::vector<SpecialPlace>& found) {
   constexpr double kAxis = 1e-4;
-  // Where all laws are monotone nothing is unstable: without damping the moduli are 1 but for rounding.
+  // Where all laws are monotone nothing is unstable.
   if (stretch.map().system().monotone) return;
   const int before = stretch.from().unstable(), after = stretch.to().unstable();
   const int change = std::abs(after - before);
   if (change == 0 || (has_fold && change == 1)) return;
   const Eigen::Index passing = std::min(before, after);  // its index, by modulus
   const auto beyond_one = [passing](const BranchPlace& place) {
-    return std::abs(place.multipliers[passing]) - 1.0;
+    return std::abs(place.multipliers[passing]) - 1.0 - BranchPlace::kOutside;
   };
   const BranchRoot found_root = root(stretch, beyond_one);
   const bool jumps = found_root.is_jump();
@@ -75,6 +76,7 @@ void add_stability_change(const PartOfBranch& stretch, bool has_fold, std::vecto
   SpecialPlace special;
   special.place = found_root.place;
   special.residual = jumps ? found_root.width : std::abs(found_root.value);
+  special.is_solved = found_root.is_solved();
   special.kind = jumps                                 ? SpecialKind::stability_jump
                  : std::abs(multiplier.imag()) > kAxis ? SpecialKind::torus
                  : multiplier.real() > 0.0             ? SpecialKind::branching
@@ -87,7 +89,7 @@ void add_stability_change(const PartOfBranch& stretch, bool has_fold, std::vecto
 void add_fold(const PartOfBranch& stretch, std::vector<SpecialPlace>& found) {
   constexpr double kSame = 1e-6;
   const BranchRoot fold = root(stretch, [](const BranchPlace& place) { return place.parameter_rate(); });
-  SpecialPlace special{SpecialKind::fold, fold.place, std::nullopt, std::abs(fold.value)};
+  SpecialPlace special{SpecialKind::fold, fold.place, std::nullopt, std::abs(fold.value), fold.is_solved()};
   if (fold.is_jump()) special = {SpecialKind::corner, fold.place, std::nullopt, fold.width};
   const double at = stretch.at(fold.place);
   const auto grazing = std::ranges::find_if(found, [&](const SpecialPlace& each) {

@@ -13,6 +13,7 @@ struct SpecialPlace {
   BranchPlace place;
   std::optional<std::size_t> element{};  // of grazing and corner
   double residual = 0.0;
+  bool is_solved = true;  // false: the places beside are too far apart, or on two branches
 };
 
 // The special places from one place of a branch to the next, in their order: where dp/ds changes its sign,
@@ -20,8 +21,8 @@ struct SpecialPlace {
 // curve, at planes across the tangent of the first.
 std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to);
 
-// How far an event (BranchMap::events) is from just happening: the distance of a bend's guard from zero at an
-// extreme, relative; of a contact the width given, of the bracket that holds it.
+// How far an event (BranchMap::events) is from just happening: the width given, of the bracket that holds it,
+// or the distance of a bend's guard from zero at an extreme, relative, if that is less.
 double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event);
 
 }  // namespace frahm::periodic

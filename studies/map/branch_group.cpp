@@ -106,7 +106,7 @@ BranchGroup::BranchGroup(const Study& study, std::size_t along, std::vector<std:
 std::vector<std::vector<double>> BranchGroup::samples(const periodic::Branch& branch) const {
   std::vector<std::vector<double>> columns(columns_);
   const double si_factor = usual_unit(study_, along_).si_factor;
-  const auto add = [&](const periodic::BranchPoint& point, const periodic::SpecialPoint* special) {
+  periodic::go_along(branch, [&](const periodic::BranchPoint& point, const periodic::SpecialPoint* special) {
     auto column = columns.begin();
     (column++)->push_back(point.parameter / si_factor);
     (column++)->push_back(point.arclength);
@@ -121,12 +121,7 @@ std::vector<std::vector<double>> BranchGroup::samples(const periodic::Branch& br
             ? std::ranges::find(elements_, mechanics::reported_by(study_.network, *special->element))
             : elements_.end();
     column->push_back(element == elements_.end() ? none : none + flag_value(element - elements_.begin()));
-  };
-  auto special = branch.special.begin();
-  for (std::size_t i = 0; i < branch.points.size(); ++i) {
-    add(branch.points[i], nullptr);
-    for (; special != branch.special.end() && special->after == i; ++special) add(special->at, &*special);
-  }
+  });
   return columns;
 }
 

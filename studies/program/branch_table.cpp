@@ -65,12 +65,9 @@ std::string BranchTable::csv(const periodic::Branch& branch) const {
   std::string text = in_brackets(name_, unit_);
   for (const auto& each : quantities_) text += "," + in_brackets(each.name, each.unit);
   text += ",largest_multiplier,stable,multiple,special";
-  auto special = branch.special.begin();
-  for (std::size_t i = 0; i < branch.points.size(); ++i) {
-    text += row(branch.points[i], "");
-    for (; special != branch.special.end() && special->after == i; ++special)
-      text += row(special->at, periodic::kind_name(special->kind));
-  }
+  periodic::go_along(branch, [&](const periodic::BranchPoint& at, const periodic::SpecialPoint* special) {
+    text += row(at, special ? periodic::kind_name(special->kind) : "");
+  });
   return text + "\n";
 }
 

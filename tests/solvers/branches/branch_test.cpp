@@ -107,7 +107,7 @@ TEST_CASE("A branch is unstable between its folds and stable elsewhere") {
   REQUIRE(folds.size() == 2);
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
-    const bool between = i > folds[0].after && i <= folds[1].after;
+    const bool between = i >= folds[0].next && i < folds[1].next;
     wrong += branch.points[i].stable == between ? 1 : 0;
   }
   CHECK(wrong == 0);
@@ -277,8 +277,8 @@ TEST_CASE("The arclength of a branch grows from its first point, special ones be
   for (std::size_t i = 1; i < branch.points.size(); ++i)
     CHECK(branch.points[i].arclength > branch.points[i - 1].arclength);
   for (const SpecialPoint& each : branch.special) {
-    CHECK(each.at.arclength >= branch.points[each.after].arclength);
-    CHECK(each.at.arclength <= branch.points[each.after + 1].arclength);
+    CHECK(each.at.arclength >= branch.points[each.next - 1].arclength);
+    CHECK(each.at.arclength <= branch.points[each.next].arclength);
   }
 }
 

@@ -183,6 +183,7 @@ TEST_CASE("A branch ends where the static force throws the motion elsewhere, and
     // Its other end is where orbits of half the period change their events.
     CHECK(each.last_end == BranchEnd::origin);
     CHECK_THAT(each.special.back().at.parameter, WithinAbs(grazing.front(), kSame));
+    CHECK(each.special.back().at.arclength > each.points.back().arclength);
   }
   REQUIRE(jumps.size() == 2);  // mirror images of one another
   CHECK_THAT(jumps[0].at.parameter, WithinAbs(jumps[1].at.parameter, kSame));
