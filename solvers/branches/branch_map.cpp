@@ -83,42 +83,42 @@ Eigen::MatrixXd BranchMap::scaled(const Eigen::MatrixXd& by_state) const {
   return root_ * A * root_inverse_;
 }
 
-// The residual at the parameter set. Contacts that stick throughout keep their rest position (multiplier +1):
-// the residual has no part of it.
-void BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot) {
+// Contacts that stick throughout keep their rest position (multiplier +1): the residual has no part of it.
+Shot BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent) {
+  Shot shot;
+  shot.failed = true;
+  try {
+    set(parameter(y));
+  } catch (const mechanics::MechanicsError&) {
+    return shot;
+  }
   const auto& eq = flow_.equations();
   const Eigen::Index n = eq.masses();
   const Eigen::VectorXd z = state(y);
-  shot.failed = true;
-  if (!z.allFinite() || eq.period > ShootingOptions{}.most_steps_a_period) return;
+  if (!z.allFinite() || eq.period > ShootingOptions{}.most_steps_a_period) return shot;
   steps_.clear();
   walk_.pass(z, section_, length(), shot.passage, tangent, 0, &steps_);
-  if (shot.passage.failure != nullptr) return;
+  if (shot.passage.failure != nullptr) return shot;
   shot.failed = false;
   shot.stuck_throughout = stuck_throughout(flow_, shot.passage);
-  Eigen::VectorXd residual = (half_period_ ? -1.0 : 1.0) * shot.passage.end - z;
   if (!half_period_ && shot.stuck_throughout != 0)
-    residual -= shift_projector(rest_directions(eq, shot.stuck_throughout)) * residual;
+    shot.to_rest = shift_projector(rest_directions(eq, shot.stuck_throughout));
+  Eigen::VectorXd residual = (half_period_ ? -1.0 : 1.0) * shot.passage.end - z;
+  if (shot.to_rest.size() > 0) residual -= shot.to_rest * residual;
   residual.segment(n, n) /= eq.step;
   shot.residual = root_ * residual / scale_;
+  return shot;
 }
 
 Shot BranchMap::shoot(const Eigen::VectorXd& y) {
-  Shot shot;
-  try {
-    set(parameter(y));
-    pass(y, Tangent::followed, shot);
-    if (shot.failed) return shot;
-    Eigen::MatrixXd A = (half_period_ ? -1.0 : 1.0) * shot.passage.tangent;
-    A.diagonal().array() -= 1.0;
-    if (!half_period_ && shot.stuck_throughout != 0)
-      A -= shift_projector(rest_directions(flow_.equations(), shot.stuck_throughout));
-    shot.derivative.resize(y.size() - 1, y.size());
-    shot.derivative << scaled(A), by_parameter(shot);
-    shot.failed = !shot.derivative.allFinite();
-  } catch (const mechanics::MechanicsError&) {  // the parameter's values break a rule here
-    shot.failed = true;
-  }
+  Shot shot = pass(y, Tangent::followed);
+  if (shot.failed) return shot;
+  Eigen::MatrixXd A = (half_period_ ? -1.0 : 1.0) * shot.passage.tangent;
+  A.diagonal().array() -= 1.0;
+  if (shot.to_rest.size() > 0) A -= shot.to_rest;
+  shot.derivative.resize(y.size() - 1, y.size());
+  shot.derivative << scaled(A), by_parameter(shot);
+  shot.failed = !shot.derivative.allFinite();
   return shot;
 }
 
@@ -138,8 +138,7 @@ Eigen::VectorXd BranchMap::by_parameter(const Shot& shot) {
   Eigen::VectorXd end = sensitivity_.carry(steps_.steps(), shot.passage.changes, start);
   end.segment(n, n) = (end.segment(n, n) - by.log_step * shot.passage.end.segment(n, n)) / eq.step;
   if (half_period_) end *= -1.0;
-  if (!half_period_ && shot.stuck_throughout != 0)
-    end -= shift_projector(rest_directions(eq, shot.stuck_throughout)) * end;
+  if (shot.to_rest.size() > 0) end -= shot.to_rest * end;
   return (high_ - low_) / scale_ * (root_ * end);
 }
 
@@ -158,9 +157,7 @@ AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {
 }
 
 Eigen::VectorXd BranchMap::at_rest_in_the_middle(const Eigen::VectorXd& y) {
-  Shot shot;
-  set(parameter(y));
-  pass(y, Tangent::followed, shot);
+  Shot shot = pass(y, Tangent::followed);
   if (shot.failed) return {};
   AnyOrbit there = orbit(y, std::move(shot));
   if (!RestSearch<kAnySize, kAnySize>(assembly_, flow_).shift_to_middle(there)) return {};
@@ -219,9 +216,7 @@ int BranchMap::slipping_sliders(const Segment<kAnySize, kAnySize>& stretch) cons
 }
 
 std::optional<double> BranchMap::section_of_least_slip(const Eigen::VectorXd& y) {
-  Shot shot;
-  set(parameter(y));
-  pass(y, Tangent::none, shot);
+  const Shot shot = pass(y, Tangent::none);
   if (shot.failed) return std::nullopt;
   const auto& segments = shot.passage.segments;
   const auto fewer_then_longer = [this](const auto& a, const auto& b) {

@@ -20,6 +20,7 @@ struct Shot {
   Eigen::MatrixXd derivative;  // by y, states x (states + 1)
   AnyPassage passage;
   ContactMask stuck_throughout = 0;
+  Eigen::MatrixXd to_rest;  // projects onto what keeps its rest position; empty: nothing does
 };
 
 // The period map of a network along one parameter p. Places of a branch are y = (R z / scale, (p - low) /
@@ -38,7 +39,10 @@ class BranchMap {
   Eigen::VectorXd place_of(const AnyOrbit& orbit) const;
   int multiple() const { return multiple_; }  // of the excitation's period
 
-  // Leaves the flow set to the parameter of y.
+  // The motion from a place over the map's length, and whether it closes. Leaves the flow set to the
+  // parameter of y. Failed, too, where the parameter's values break a rule.
+  Shot pass(const Eigen::VectorXd& y, Tangent tangent);
+  // With the derivative by y.
   Shot shoot(const Eigen::VectorXd& y);
 
   // omega t of the section [rad], 0 at first.
@@ -75,7 +79,6 @@ class BranchMap {
 
  private:
   double length() const { return (half_period_ ? 0.5 : 1.0) * flow_.equations().period; }
-  void pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot);
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
   Eigen::VectorXd by_parameter(const Shot& shot);
   double middle_of(const Segment<kAnySize, kAnySize>& stretch) const;

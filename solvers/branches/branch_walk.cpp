@@ -37,29 +37,20 @@ class BranchWalk {
     step_ = limits_.first;
     if (leaves_range(here_.y, here_.tangent)) return BranchEnd::range;
     for (int points = 1; points < wanted_.most_points;) {
-      const auto next = take_step();
-      if (next) {
-        if (const auto origin = origin_of_doubling(map_, here_, *next)) {
-          found_({here_, nullptr, {*origin}});
-          return BranchEnd::origin;
-        }
-      }
+      auto next = take_step();
+      if (next && begins_before(*next)) return BranchEnd::origin;
+      const bool at_end = next && is_at_end(*next);
+      const bool closes = next && !at_end && points >= kLeastLoop && closes_by(*next);
       auto special = next ? between(*next) : std::nullopt;
       if (!special) {
-        step_ *= 0.5;
-        if (step_ >= limits_.least || leave_slip()) continue;
-        if (meets_family()) return BranchEnd::family;
-        if (!pass_corner()) return end_here();
+        if (const auto end = shorten_step()) return *end;
         continue;
       }
-      const double p = next->y[next->y.size() - 1];
-      if (p <= 0.0 || p >= 1.0) return accept(*next, std::move(*special)), BranchEnd::range;
       ++points;
-      if (points > kLeastLoop) {
-        for (const BranchPlace& each : firsts_)
-          if (passes(each, *next)) return accept(each, special_places(map_, here_, each)), BranchEnd::closed;
-      }
-      if (!accept(*next, std::move(*special))) return BranchEnd::joined;
+      const bool is_new = accept(*next, std::move(*special));
+      if (at_end) return BranchEnd::range;
+      if (closes) return BranchEnd::closed;
+      if (!is_new) return BranchEnd::joined;
       if (here_.y.norm() > limits_.most_size) return BranchEnd::unbounded;
       if (here_.section_is_near_event) move_section(here_.better_section);
       if (here_.rests_at_limit) leave_limit();
@@ -69,6 +60,11 @@ class BranchWalk {
 
  private:
   static constexpr int kLeastLoop = 10;
+
+  static bool is_at_end(const BranchPlace& place) {
+    const double p = place.y[place.y.size() - 1];
+    return p <= 0.0 || p >= 1.0;
+  }
 
   static bool leaves_range(const Eigen::VectorXd& y, const Eigen::VectorXd& tangent) {
     const double p = y[y.size() - 1], rate = tangent[y.size() - 1];
@@ -97,25 +93,63 @@ class BranchWalk {
     return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
   }
 
+  // Whether the branch begins on the way to the next place, where orbits of half the period double theirs.
+  bool begins_before(const BranchPlace& next) const {
+    const auto origin = origin_of_doubling(map_, here_, next);
+    if (origin) found_({here_, nullptr, {*origin}});
+    return origin.has_value();
+  }
+
+  // Whether the step comes by the first place again: it ends there.
+  bool closes_by(BranchPlace& next) const {
+    const auto first =
+        std::ranges::find_if(firsts_, [&](const BranchPlace& each) { return passes(each, next); });
+    if (first != firsts_.end()) next = *first;
+    return first != firsts_.end();
+  }
+
+  // A shorter step; from the shortest on, to another section or beyond a corner. Otherwise why the branch
+  // ends.
+  std::optional<BranchEnd> shorten_step() {
+    step_ *= 0.5;
+    if (step_ >= limits_.least || leave_slip()) return std::nullopt;
+    if (meets_family()) return BranchEnd::family;
+    return pass_corner() ? std::nullopt : std::optional(end_here());
+  }
+
   // What is special between here and the next place. Nothing where the step is too long to know: one of the
-  // places is not solved, or halfway something happens that both ends do not show.
+  // places is not solved, or between them something happens that both ends do not show.
   std::optional<std::vector<SpecialPlace>> between(const BranchPlace& next) const {
     auto special = special_places(map_, here_, next);
-    const bool is_known = std::ranges::all_of(special, &SpecialPlace::is_solved) && shows_all(next);
+    const bool is_known = std::ranges::all_of(special, &SpecialPlace::is_solved) && shows_all(next, special);
     return is_known || step_ <= limits_.kink ? std::optional(std::move(special)) : std::nullopt;
   }
-  bool shows_all(const BranchPlace& next) const {
+  bool shows_all(const BranchPlace& next, const std::vector<SpecialPlace>& special) const {
     const auto middle = PartOfBranch(map_, here_, next).place(0.5, here_, next);
-    if (!middle) return false;
+    if (!middle || !is_shown(*middle, next) || turns_twice(*middle, next)) return false;
+    return std::ranges::all_of(special, [&](const SpecialPlace& each) { return is_shown(each.place, next); });
+  }
+  // A place between here and the next: its numbers are between theirs.
+  bool is_shown(const BranchPlace& place, const BranchPlace& next) const {
     const auto is_between = [](auto value, auto a, auto b) {
       return value >= std::min(a, b) && value <= std::max(a, b);
     };
-    for (std::size_t event = 0; event < middle->events.size(); ++event)
-      if (!is_between(middle->events[event], here_.events[event], next.events[event])) return false;
+    for (std::size_t event = 0; event < place.events.size(); ++event)
+      if (!is_between(place.events[event], here_.events[event], next.events[event])) return false;
     if (map_.system().monotone) return true;
-    return is_between(middle->unstable(), here_.unstable(), next.unstable()) &&
-           is_between(middle->parameter_rate() > 0.0, here_.parameter_rate() > 0.0,
+    return is_between(place.unstable(), here_.unstable(), next.unstable()) &&
+           is_between(place.parameter_rate() > 0.0, here_.parameter_rate() > 0.0,
                       next.parameter_rate() > 0.0);
+  }
+  // Whether the parabola through dp/ds at three places crosses zero between them and comes back.
+  bool turns_twice(const BranchPlace& middle, const BranchPlace& next) const {
+    if (map_.system().monotone) return false;
+    const double a = here_.parameter_rate(), m = middle.parameter_rate(), b = next.parameter_rate();
+    // dp/ds = a + slope t + bend t^2, t = 0 .. 1
+    const double slope = 4.0 * m - 3.0 * a - b, bend = 2.0 * (a - 2.0 * m + b);
+    const double t = -0.5 * slope / bend;  // of its extreme
+    if (!(t > 0.0 && t < 1.0) || (a > 0.0) != (b > 0.0)) return false;
+    return (a + 0.5 * slope * t > 0.0) != (a > 0.0);
   }
 
   // Whether the orbit of a place takes the multiple divided by a prime: it is on another branch, which
@@ -246,7 +280,7 @@ class BranchWalk {
     } catch (const mechanics::MechanicsError&) {
       return BranchEnd::rule;
     }
-    const Shot shot = map_.shoot(beyond);
+    const Shot shot = map_.pass(beyond, Tangent::none);
     if (shot.failed) return BranchEnd::lost;
     const std::vector<int> there = count_events(map_.flow(), shot.passage);
     if (there == here_.events) return BranchEnd::lost;

@@ -45,7 +45,7 @@ FollowedBranch::FollowedBranch(const mechanics::Network& network, const std::vec
 
 // The orbit of a place once more, with the quantities asked for.
 BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
-  Shot shot = map_.shoot(y);
+  Shot shot = map_.pass(y, Tangent::followed);
   BranchPoint point{.parameter = map_.parameter(y), .quantities = std::vector<double>(quantities_)};
   if (shot.failed) {
     observables_.fill_missing(Status::failed, 0, point.quantities);
@@ -74,7 +74,7 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
 bool FollowedBranch::is_stable_in_the_middle(const Eigen::VectorXd& y) {
   const Eigen::VectorXd middle = map_.at_rest_in_the_middle(y);
   if (middle.size() == 0) return false;
-  Shot shot = map_.shoot(middle);
+  Shot shot = map_.pass(middle, Tangent::followed);
   return !shot.failed && map_.orbit(middle, std::move(shot)).is_stable();
 }
 

@@ -31,7 +31,7 @@ Border border_of_event(const PartOfBranch& stretch, std::size_t event) {
 
 double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event) {
   if (event >= map.assembly().bends().element.size()) return width;
-  Shot shot = map.shoot(place.y);
+  Shot shot = map.pass(place.y, Tangent::followed);
   return std::min(width, distance_from_bend(map.flow(), map.orbit(place.y, std::move(shot)),
                                             static_cast<Eigen::Index>(event)));
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linear_values.hpp"
-#include "solvers/laws/elastic_stop.hpp"
+#include "one_mass.hpp"
 #include "solvers/response/periodic_response.hpp"
 
 namespace frahm::periodic::coexisting_branches_test {
@@ -14,10 +14,10 @@ namespace {
 
 using Catch::Matchers::WithinAbs;
 using namespace mechanics;
+using namespace one_mass;
 
 constexpr double kPrinted = 1e-7;  // of figures by two independent methods
 constexpr double kSame = 1e-8;     // of one orbit found in two ways
-const Node ground{}, mass{NodeKind::mass, 0};
 const std::vector<Quantity> asked{{Measure::peak, 0}, {Measure::mean, 0}};
 
 // x'' + c x' + x + a stop of stiffness k beyond x = D, on the other side too where both: cos(r tau).
@@ -25,17 +25,7 @@ struct Stopped {
   double c, k, D;
   bool both;
 
-  Network network() const {
-    Network network{.masses = {"x"},
-                    .prescribed = {},
-                    .elements = {{"spring", ElementType::spring, ground, mass},
-                                 {"damper", ElementType::damper, ground, mass},
-                                 {"stops", ElementType::gap, ground, mass}},
-                    .excitations = {{ExcitationKind::force, 0, 1}}};
-    network.elements[2].bends = {{1.0, &laws::elastic_stop}};
-    if (both) network.elements[2].bends.push_back({-1.0, &laws::elastic_stop});
-    return network;
-  }
+  Network network() const { return both ? mass_between_stops() : mass_before_a_stop(); }
   NetworkValues operator()(double r) const {
     NetworkValues values{.omega = r,
                          .mass = {1.0},
@@ -128,16 +118,6 @@ TEST_CASE("Every stable orbit that is found lies on one branch, subharmonics too
 struct Held {
   double f_k, f_s;
 
-  static Network network() {
-    Network network{.masses = {"x"},
-                    .prescribed = {},
-                    .elements = {{"spring", ElementType::spring, ground, mass},
-                                 {"damper", ElementType::damper, ground, mass},
-                                 {"friction", ElementType::coulomb, ground, mass}},
-                    .excitations = {{ExcitationKind::force, 0, 1}}};
-    network.elements[2].has_static_force = true;
-    return network;
-  }
   NetworkValues operator()(double r) const {
     return NetworkValues{.omega = r,
                          .mass = {1.0},
@@ -148,7 +128,7 @@ struct Held {
 };
 
 std::vector<Branch> held_branches(double f_k, double f_s) {
-  return follow_branches(Held::network(), asked, linear(Held{f_k, f_s}), {.low = 0.2, .high = 1.8}, {},
+  return follow_branches(held_mass(), asked, linear(Held{f_k, f_s}), {.low = 0.2, .high = 1.8}, {},
                          places(0.2, 1.8, 65));
 }
 
@@ -219,7 +199,7 @@ TEST_CASE(
 
 TEST_CASE("A branch that comes round to a part of itself ends there, and tells nothing twice") {
   const Branch branch =
-      follow_branch(Held::network(), asked, linear(Held{0.2, 0.9}), {.low = 0.2, .high = 1.8, .start = 1.5});
+      follow_branch(held_mass(), asked, linear(Held{0.2, 0.9}), {.low = 0.2, .high = 1.8, .start = 1.5});
   CHECK(branch.first_end == BranchEnd::joined);
   CHECK(branch.last_end == BranchEnd::range);
   for (const SpecialKind kind : {SpecialKind::fold, SpecialKind::stability_jump})
@@ -229,17 +209,11 @@ TEST_CASE("A branch that comes round to a part of itself ends there, and tells n
 }
 
 TEST_CASE("A system of one response has one branch, followed once") {
-  Network network{.masses = {"x"},
-                  .prescribed = {},
-                  .elements = {{"spring", ElementType::spring, ground, mass},
-                               {"damper", ElementType::damper, ground, mass},
-                               {"friction", ElementType::coulomb, ground, mass}},
-                  .excitations = {{ExcitationKind::force, 0, 1}}};
   const auto values = [](double r) {
     return NetworkValues{.omega = r, .mass = {1.0}, .element = {1.0, 0.1, 0.2}, .excitation = {{1.0, 0.0}}};
   };
-  const auto branches =
-      follow_branches(network, asked, linear(values), {.low = 0.5, .high = 2.0}, {}, places(0.5, 2.0, 7));
+  const auto branches = follow_branches(single_mass(), asked, linear(values), {.low = 0.5, .high = 2.0}, {},
+                                        places(0.5, 2.0, 7));
   REQUIRE(branches.size() == 1);
   CHECK(branches.front().points.front().parameter == 0.5);
   CHECK_THAT(branches.front().points.back().parameter, WithinAbs(2.0, kSame));
