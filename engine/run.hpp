@@ -59,11 +59,11 @@ struct Shard {
 struct RunOptions {
   std::filesystem::path output;  // the file to be assembled later; the logs lie next to it
   int threads = 0;               // of each process, >= 0; 0: default_threads()
-  Shard shard;
+  Shard shard{};
   // Discard what earlier runs left: all logs; for one shard of several its own log and those of other
   // studies, because the other shards of this study may be at work or done.
   bool fresh = false;
-  std::optional<std::chrono::duration<double>> time_budget;  // > 0, from `begun`; absent: none
+  std::optional<std::chrono::duration<double>> time_budget{};  // > 0, from `begun`; absent: none
   // Whether somebody other than signals and the budget asks for a stop, as a function of Python that shows
   // progress; it outlives the run. Null: nobody.
   const std::atomic<bool>* called_off = nullptr;

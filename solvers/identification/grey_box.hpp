@@ -43,14 +43,14 @@ struct GreyBoxTask {
   mechanics::Network network;
   ModelAt model_at;
   std::vector<FittedParameter> parameters;  // at least one
-  std::vector<FixedParameter> fixed;
-  Eigen::MatrixXd fixed_covariance;  // of `fixed`, in its order
-  std::vector<TimeRecord> records;   // at least one
+  std::vector<FixedParameter> fixed{};
+  Eigen::MatrixXd fixed_covariance{};  // of `fixed`, in its order
+  std::vector<TimeRecord> records;     // at least one
   // Fit the beginning of each record first, two periods of the model, then twice as much each time: a wrong
   // frequency slips whole periods along a record, and is corrected only while that is short. If the fit ends
   // far from the data, it is repeated from a quarter of a period on.
   bool grow = true;
-  transient::Watch watch;  // called while it works; what it throws is passed on
+  transient::Watch watch{};  // called while it works; what it throws is passed on
 };
 
 // Channels of different sizes are weighed by 1 / |y - mean y| of each series in a first fit, then by the

@@ -141,10 +141,10 @@ struct MatrixPart {
 };
 
 struct Network {
-  std::vector<std::string> masses;      // names of the moving nodes
-  std::vector<std::string> prescribed;  // names of the nodes of prescribed motion
-  std::vector<Element> elements;
-  std::vector<Excitation> excitations;
+  std::vector<std::string> masses;        // names of the moving nodes
+  std::vector<std::string> prescribed{};  // names of the nodes of prescribed motion
+  std::vector<Element> elements{};
+  std::vector<Excitation> excitations{};
   int reference_order = 1;       // the harmonic of which phases are taken
   std::vector<bool> rotation{};  // of each mass: it is a moment of inertia; may be empty where none is
   std::vector<Signal> signals{};
@@ -213,7 +213,7 @@ struct NetworkValues {
   // [kg], [kg m2] of a rotation, >= 0 (zero where an inerter keeps the mass matrix definite)
   std::vector<double> mass;
   std::vector<double> element;  // stiffness, damping, inertance or force of each element (see ElementType)
-  std::vector<ExcitationValue> excitation;  // of each excitation component
+  std::vector<ExcitationValue> excitation{};  // of each excitation component
   std::vector<double> second{};  // of each element, 0 where it has none; may be empty where none has one
   std::vector<std::vector<BendValue>> bends{};  // of each element; may be empty where none has any
   std::vector<SmoothValue> smooth{};            // of each element; may be empty where no law is smooth

@@ -19,9 +19,9 @@ struct SensorNoise {
 };
 
 struct MeasurementOptions {
-  double rate = 0.0;               // samples a second, > 0; 0: 100 in each period of the lowest natural mode
-  std::optional<double> duration;  // [s]; none: of the motion; of a periodic response ten periods
-  SensorNoise noise;
+  double rate = 0.0;  // samples a second, > 0; 0: 100 in each period of the lowest natural mode
+  std::optional<double> duration{};  // [s]; none: of the motion; of a periodic response ten periods
+  SensorNoise noise{};
   std::vector<std::string> columns;  // empty: the displacement of each mass
 };
 

@@ -24,7 +24,6 @@ struct Response {
 };
 Response respond(ElementType beside, double r, double value, double second) {
   const mechanics::Network network{.masses = {"x"},
-                                   .prescribed = {},
                                    .elements = {{"spring", ElementType::spring, ground, moving_mass},
                                                 {"beside", beside, ground, moving_mass}},
                                    .excitations = {{ExcitationKind::force, 0, 1}}};
@@ -59,16 +58,13 @@ void add_free_decay(std::vector<VerifyCase>& cases) {
   VerifyCase turning{"Free decay with friction: turning points", of_turning_points};
   VerifyCase stop{"Free decay with friction: time of the stop", of_turning_points};
   const mechanics::Network network{.masses = {"x"},
-                                   .prescribed = {},
                                    .elements = {{"spring", ElementType::spring, ground, moving_mass},
                                                 {"damper", ElementType::damper, ground, moving_mass},
-                                                {"friction", ElementType::coulomb, ground, moving_mass}},
-                                   .excitations = {}};
+                                                {"friction", ElementType::coulomb, ground, moving_mass}}};
   for (const double zeta : {0.0, 0.01, 0.1, 0.5}) {
     for (const double x_f : {0.013, 0.07, 0.21}) {
-      const auto decay =
-          transient::free_decay(network, {.mass = {1.0}, .element = {1.0, 2.0 * zeta, x_f}, .excitation = {}},
-                                {.displacement = {1.0}, .velocity = {0.0}}, {});
+      const auto decay = transient::free_decay(network, {.mass = {1.0}, .element = {1.0, 2.0 * zeta, x_f}},
+                                               {.displacement = {1.0}, .velocity = {0.0}}, {});
       const auto& extrema = decay.masses[0].extrema;
       const double s = std::sqrt(1.0 - zeta * zeta), beta = std::exp(-pi * zeta / s);
       double size = 1.0, side = 1.0;

@@ -26,8 +26,7 @@ const std::vector<periodic::Quantity> asked_for = {{Measure::amplitude, 0},     
 }  // namespace
 
 mechanics::Network forced_mass(const std::vector<int>& orders) {
-  mechanics::Network network{
-      .masses = {"x"}, .prescribed = {}, .elements = spring_damper_friction({}, {}), .excitations = {}};
+  mechanics::Network network{.masses = {"x"}, .elements = spring_damper_friction({}, {})};
   for (const int order : orders) network.excitations.push_back({mechanics::ExcitationKind::force, 0, order});
   network.reference_order = orders.front();
   return network;

@@ -35,13 +35,13 @@ struct Fact {
   std::string name;                 // `mass "main": mass`
   std::vector<std::string> tables;  // those it is in, the outermost first
   bool is_list = false;
-  std::vector<Item> items;  // one unless it is a list
+  std::vector<Item> items{};  // one unless it is a list
 };
 
 // The names in a list of tables or of settings, in their order.
 struct Sequence {
   std::string name;  // "[[element]]"
-  std::vector<std::string> members;
+  std::vector<std::string> members{};
 };
 
 // All that a study says, in the order of its file.
@@ -139,7 +139,7 @@ class FactReading {
 
   // The order of parameters changes nothing.
   void add_settings(const TomlTable& settings, const std::string& section, const std::string& name) {
-    Sequence sequence{.name = name, .members = {}};
+    Sequence sequence{.name = name};
     for (const TomlEntry& each : settings) {
       add_value(each.value, section.empty() ? "parameter " + each.key : name + ": " + each.key, "");
       sequence.members.push_back(each.key);
@@ -149,8 +149,7 @@ class FactReading {
 
   void add_tables(const TomlArray& list, const std::string& section, const std::string& where) {
     const bool stands_alone = where.empty() || where.starts_with('[');  // its name tells enough
-    Sequence sequence{.name = fmt::format("{}[[{}]]", stands_alone ? "" : where + ": ", section),
-                      .members = {}};
+    Sequence sequence{.name = fmt::format("{}[[{}]]", stands_alone ? "" : where + ": ", section)};
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (!list[i].as<TomlTable>()) continue;
       const std::string own = name_of(list[i], section, i + 1);
@@ -163,7 +162,7 @@ class FactReading {
   }
 
   void add_value(const TomlValue& value, std::string name, const std::string& unit) {
-    Fact fact{.name = std::move(name), .tables = inside_, .items = {}};
+    Fact fact{.name = std::move(name), .tables = inside_};
     if (const auto* list = value.as<TomlArray>()) {
       fact.is_list = true;
       for (const TomlValue& each : *list) fact.items.push_back(item_of(each, unit));

@@ -105,11 +105,8 @@ double bytes_of_point(const studies::MapPlan& plan) {
 void write_shards(const studies::MapPlan& plan, const std::filesystem::path& output, int threads) {
   Times times;
   const engine::Summary summary =
-      engine::run(timed(studies::job_of(plan), times), {.output = output,
-                                                        .threads = threads,
-                                                        .shard = {},
-                                                        .time_budget = {},
-                                                        .progress = engine::ProgressStyle::none});
+      engine::run(timed(studies::job_of(plan), times),
+                  {.output = output, .threads = threads, .progress = engine::ProgressStyle::none});
   const double millions = 1e-6 * static_cast<double>(plan.grid.points());
   fmt::print(
       "  shard writing, {} threads: {:.2f} % of their time; {:.3f} thread seconds per million points, "

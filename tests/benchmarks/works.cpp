@@ -5,12 +5,7 @@
 namespace frahm::benchmarks {
 namespace {
 
-using mechanics::ElementType;
-using mechanics::ExcitationKind;
-using mechanics::Network;
-using mechanics::NetworkValues;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 using std::numbers::pi;
 
 Node mass_node(int i) {

@@ -14,12 +14,8 @@ namespace borders_test {
 namespace {
 
 using frahm::periodic::critical_friction;
-using runs::Folder;
-using runs::Map;
-using runs::read_map;
-using small_studies::axis;
-using small_studies::axis_of;
-using small_studies::oscillator;
+using namespace runs;
+using namespace small_studies;
 
 constexpr double place_tolerance = 1e-7;  // of an edge: half as much is the search's, the rest is rounding
 constexpr double non_stop = 2, stuck = 5;

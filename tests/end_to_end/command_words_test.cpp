@@ -9,11 +9,7 @@
 namespace command_words_test {
 namespace {
 
-using runs::Folder;
-using runs::frahm;
-using runs::Names;
-using runs::run;
-using runs::small;
+using namespace runs;
 
 TEST_CASE("wrong usage ends with code 2 and says what is wrong") {
   CHECK(frahm({}).code == 2);

@@ -16,8 +16,7 @@
 namespace explained_results_test {
 namespace {
 
-using runs::Folder;
-using runs::frahm;
+using namespace runs;
 using Names = std::set<std::string>;
 
 // Runs the study and checks the names in its result.  own: names that the study gives: of parameters.

@@ -14,20 +14,9 @@
 namespace growing_files_test {
 namespace {
 
-using grown_maps::Points;
-using grown_maps::points_of;
-using grown_maps::provenance;
-using grown_maps::run;
-using grown_maps::same_point;
-using grown_maps::variable_size;
-using runs::Folder;
-using runs::frahm;
-using runs::Map;
-using runs::read_map;
-using runs::reduced;
-using small_studies::axis;
-using small_studies::axis_of;
-using small_studies::oscillator;
+using namespace grown_maps;
+using namespace runs;
+using namespace small_studies;
 using Names = std::vector<std::string>;
 
 const std::string small = oscillator() + axis("f", 0, 1, 5) + axis("r", 0.2, 2, 31);

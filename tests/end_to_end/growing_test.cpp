@@ -10,21 +10,9 @@
 namespace growing_test {
 namespace {
 
-using grown_maps::Points;
-using grown_maps::points_of;
-using grown_maps::provenance;
-using grown_maps::run;
-using grown_maps::same_point;
-using grown_maps::variable_size;
-using runs::Folder;
-using runs::frahm;
-using runs::Map;
-using runs::read_map;
-using runs::reduced;
-using runs::replaced;
-using small_studies::axis;
-using small_studies::axis_of;
-using small_studies::oscillator;
+using namespace grown_maps;
+using namespace runs;
+using namespace small_studies;
 using Names = std::vector<std::string>;
 
 // Where the error bound does not hold, of stuck masses and at the resonance of an undamped one: both

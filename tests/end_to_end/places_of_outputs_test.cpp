@@ -10,13 +10,7 @@
 namespace places_of_outputs_test {
 namespace {
 
-using runs::Folder;
-using runs::frahm;
-using runs::Names;
-using runs::provenance;
-using runs::run;
-using runs::small;
-using runs::text_of;
+using namespace runs;
 
 TEST_CASE("an output that cannot be written ends with code 6 and leaves nothing") {
   const Folder folder;

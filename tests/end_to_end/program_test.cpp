@@ -11,15 +11,8 @@
 namespace program_test {
 namespace {
 
-using runs::Folder;
-using runs::frahm;
-using runs::Names;
-using runs::provenance;
-using runs::run;
-using runs::small;
-using runs::text_of;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace runs;
+using namespace small_studies;
 
 TEST_CASE("check tells what the histories of listed orbits take") {
   // 512 instants of time, two states and an acceleration, three forces, slip and its rate: 9 numbers, 3

@@ -13,10 +13,8 @@
 namespace shards_test {
 namespace {
 
-using runs::Folder;
-using runs::frahm;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace runs;
+using namespace small_studies;
 using Names = std::vector<std::string>;
 
 const std::string of_many_tiles = oscillator() + axis("f", 0, 1, 30) + axis("r", 0.2, 2, 101);

@@ -12,9 +12,7 @@
 namespace tuning_test {
 namespace {
 
-using runs::Folder;
-using runs::frahm;
-using runs::Outcome;
+using namespace runs;
 using namespace small_tunings;
 
 constexpr double mu = 0.05;  // mass ratio of small_tunings

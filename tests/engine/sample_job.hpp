@@ -82,12 +82,7 @@ inline LogHeader study_of(const Job& job) {
 }
 
 inline RunOptions quiet(const Scratch& scratch, int threads = 2) {
-  return {.output = scratch.output(),
-          .threads = threads,
-          .shard = {},
-          .fresh = false,
-          .time_budget = {},
-          .progress = ProgressStyle::none};
+  return {.output = scratch.output(), .threads = threads, .fresh = false, .progress = ProgressStyle::none};
 }
 
 // All finished tiles beside the output, read back in order.

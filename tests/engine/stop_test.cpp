@@ -159,12 +159,7 @@ TEST_CASE("(in a child) a run killed at tile 17", "[.]") {
     if (tile == 17) std::raise(SIGKILL);
   });
   const std::filesystem::path output = std::getenv(child_output);
-  run(job, {.output = output,
-            .threads = 1,
-            .shard = {},
-            .fresh = false,
-            .time_budget = {},
-            .progress = ProgressStyle::none});
+  run(job, {.output = output, .threads = 1, .fresh = false, .progress = ProgressStyle::none});
 }
 
 TEST_CASE("a kill loses only the tiles in hand") {

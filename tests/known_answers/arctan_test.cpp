@@ -103,7 +103,6 @@ TEST_CASE(
   using namespace mechanics;
   const Node ground{}, mass{NodeKind::mass, 0};
   const Network network{.masses = {"x"},
-                        .prescribed = {},
                         .elements = {{"spring", ElementType::spring, ground, mass},
                                      {"maxwell", ElementType::maxwell, ground, mass},
                                      {"friction", ElementType::coulomb, ground, mass}},

@@ -51,7 +51,6 @@ void compare(Responses& lever, Responses& reduced, const Factors& factors) {
 Network lever_with(double ratio) {
   const Direction arm{{first, ratio}, {ground, -ratio}};
   return {.masses = {"x"},
-          .prescribed = {},
           .elements = {{"spring", ElementType::spring, arm},
                        {"damper", ElementType::damper, arm},
                        {"brace", ElementType::jenkins, arm},
@@ -93,7 +92,6 @@ TEST_CASE("a pair of gears is two masses of J/r^2 between which the teeth are a 
   const double r = 0.05, R = 0.16, J = 0.02, big = 0.5;
   const Direction mesh{{first, r}, {second, R}};
   Network gears{.masses = {"pinion", "wheel"},
-                .prescribed = {},
                 .elements = {{"shaft", ElementType::spring, ground, first},
                              {"bearing", ElementType::damper, ground, first},
                              {"teeth", ElementType::spring, mesh},
@@ -146,7 +144,6 @@ TEST_CASE("an inclined spring, damper and guide act along their direction and le
   const double angle = 0.7, cos = std::cos(angle), sin = std::sin(angle);
   const auto network = [](const Direction& strut) {
     return Network{.masses = {"x", "y"},
-                   .prescribed = {},
                    .elements = {{"kx", ElementType::spring, ground, first},
                                 {"ky", ElementType::spring, ground, second},
                                 {"cx", ElementType::damper, ground, first},
@@ -192,7 +189,6 @@ TEST_CASE("a flywheel behind a rack and pinion is a mass of J/r^2, and behind ri
   const Direction teeth{{first, 1.0}, {second, -r}};
   const auto network = [&](const Direction& mesh, bool turns) {
     Network result{.masses = {"machine", "flywheel"},
-                   .prescribed = {},
                    .elements = {{"mount", ElementType::spring, ground, first},
                                 {"damper", ElementType::damper, ground, first},
                                 {"teeth", ElementType::spring, mesh},
@@ -229,7 +225,6 @@ TEST_CASE("a flywheel behind a rack and pinion is a mass of J/r^2, and behind ri
   }
   const auto rigid = [&](const Direction& along, bool turns) {
     Network result{.masses = {"machine"},
-                   .prescribed = {},
                    .elements = {{"mount", ElementType::spring, ground, first},
                                 {"damper", ElementType::damper, ground, first},
                                 {"inerter", ElementType::inerter, along},
@@ -265,7 +260,6 @@ TEST_CASE(
   using Complex = std::complex<double>;
   const double M = 100.0, m = 6.0, l = 0.4, g = 9.81, K = 4e4, C = 120.0, d = 0.05;
   Network network{.masses = {"base", "pendulum"},
-                  .prescribed = {},
                   .elements = {{"mount", ElementType::spring, ground, first},
                                {"damper", ElementType::damper, ground, first},
                                {"bob", ElementType::inerter, {{first, 1.0}, {second, l}}},
@@ -328,12 +322,10 @@ TEST_CASE("contacts along equal or opposite directions are one, and no others") 
   const Direction strut{{first, 0.6}, {second, 0.8}}, back{{second, -0.8}, {first, -0.6}, {ground, 1.0}},
       longer{{first, 1.2}, {second, 1.6}};
   const Network network{.masses = {"x", "y"},
-                        .prescribed = {},
                         .elements = {{"one", ElementType::coulomb, strut},
                                      {"back", ElementType::coulomb, back},
                                      {"longer", ElementType::coulomb, longer},
-                                     {"x_guide", ElementType::coulomb, ground, first}},
-                        .excitations = {}};
+                                     {"x_guide", ElementType::coulomb, ground, first}}};
   const Assembly assembly(network);
   CHECK(assembly.contacts() == 3);
   CHECK(assembly.shares()[1].contact == assembly.shares()[0].contact);

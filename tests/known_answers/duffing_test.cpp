@@ -23,7 +23,6 @@ const Node ground{}, mass{NodeKind::mass, 0};
 
 Network duffing() {
   Network network{.masses = {"x"},
-                  .prescribed = {},
                   .elements = {{"spring", ElementType::spring, ground, mass},
                                {"damper", ElementType::damper, ground, mass}},
                   .excitations = {{ExcitationKind::force, 0, 1}}};
@@ -199,7 +198,6 @@ TEST_CASE("Hard and soft springs have the peaks of harmonic balance, damped and 
 TEST_CASE("An orbit of three periods of the force is found and told as one", "[slow]") {
   const Node machine{NodeKind::mass, 1};
   Network network{.masses = {"reed", "machine"},
-                  .prescribed = {},
                   .elements = {{"spring", ElementType::spring, ground, machine},
                                {"damper", ElementType::damper, ground, machine},
                                {"leaf", ElementType::spring, machine, mass},

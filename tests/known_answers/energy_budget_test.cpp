@@ -121,19 +121,15 @@ double over_history(const Samples& history, const Function& f) {
 TEST_CASE("The rig let go shares its energy among dampers and guides as its velocities say") {
   const Node ground{}, main{NodeKind::mass, 0}, tmd{NodeKind::mass, 1};
   const mechanics::Network network{.masses = {"main", "tmd"},
-                                   .prescribed = {},
                                    .elements = {{"suspension", ElementType::spring, ground, main},
                                                 {"guide_damper", ElementType::damper, ground, main},
                                                 {"guide", ElementType::coulomb, ground, main},
                                                 {"tmd_spring", ElementType::spring, tmd, main},
                                                 {"tmd_damper", ElementType::damper, tmd, main},
                                                 {"inerter", ElementType::inerter, tmd, main},
-                                                {"tmd_friction", ElementType::coulomb, tmd, main}},
-                                   .excitations = {}};
+                                                {"tmd_friction", ElementType::coulomb, tmd, main}}};
   const mechanics::NetworkValues values{
-      .mass = {102.66, 12.82},
-      .element = {7.0 * 8181.0, 1.7688, 10.127, 10985.1, 29.57, 6.36, 15.0109},
-      .excitation = {}};
+      .mass = {102.66, 12.82}, .element = {7.0 * 8181.0, 1.7688, 10.127, 10985.1, 29.57, 6.36, 15.0109}};
   const FreeDecay decay = free_decay(network, values, {{0.03, -0.01}, {0.1, 0.0}}, {.samples = 40001});
   REQUIRE(decay.end == DecayEnd::at_rest);
   check_balance(decay.energy);
@@ -161,16 +157,16 @@ TEST_CASE("The rig let go shares its energy among dampers and guides as its velo
 }
 
 mechanics::Network one_mass_on(std::vector<mechanics::Element> elements) {
-  return {.masses = {"x"}, .prescribed = {}, .elements = std::move(elements), .excitations = {}};
+  return {.masses = {"x"}, .elements = std::move(elements)};
 }
 
 TEST_CASE("A hysteretic spring loses what the damper eta k / omega_h loses") {
   const Node ground{}, mass{NodeKind::mass, 0};
   const double m = 2.0, k = 200.0, eta = 0.08, omega_h = 7.0, duration = 3.3;
-  const FreeDecay hysteretic = free_decay(
-      one_mass_on({{"mount", ElementType::hysteretic, ground, mass}}),
-      {.mass = {m}, .element = {k}, .excitation = {}, .second = {eta}, .hysteretic_omega = omega_h},
-      {{0.1}, {}}, {.duration = duration});
+  const FreeDecay hysteretic =
+      free_decay(one_mass_on({{"mount", ElementType::hysteretic, ground, mass}}),
+                 {.mass = {m}, .element = {k}, .second = {eta}, .hysteretic_omega = omega_h}, {{0.1}, {}},
+                 {.duration = duration});
   check_balance(hysteretic.energy);
   FreeOscillator viscous{.m = m, .k = k};
   viscous.zeta = eta * k / omega_h / (2.0 * std::sqrt(k * m));
@@ -184,8 +180,7 @@ TEST_CASE("A Maxwell element loses in its damper, and its spring keeps what it h
                                     {"maxwell", ElementType::maxwell, ground, mass},
                                     {"friction", ElementType::coulomb, ground, mass}});
   for (const auto& [k, c, F] : {std::tuple{40.0, 3.0, 0.0}, {40.0, 3.0, 0.5}, {2.0, 30.0, 3.0}}) {
-    const mechanics::NetworkValues values{
-        .mass = {1.0}, .element = {100.0, k, F}, .excitation = {}, .second = {0.0, c, 0.0}};
+    const mechanics::NetworkValues values{.mass = {1.0}, .element = {100.0, k, F}, .second = {0.0, c, 0.0}};
     INFO("k " << k << " c " << c << " F " << F);
     const FreeDecay cut = free_decay(network, values, {{0.2}, {1.0}}, {.duration = 0.4, .samples = 2});
     check_balance(cut.energy);
@@ -201,9 +196,9 @@ TEST_CASE("A Maxwell element loses in its damper, and its spring keeps what it h
   }
   // With a spring that hardly gives it is the damper: s = c v but for c^2 v' / k.
   const FreeOscillator oscillator{.m = 1.0, .k = 100.0, .zeta = 0.05};
-  const FreeDecay stiff = free_decay(
-      network, {.mass = {1.0}, .element = {100.0, 1e4, 0.0}, .excitation = {}, .second = {0.0, 1.0, 0.0}},
-      {{1.0}, {}}, {.duration = 1.0});
+  const FreeDecay stiff =
+      free_decay(network, {.mass = {1.0}, .element = {100.0, 1e4, 0.0}, .second = {0.0, 1.0, 0.0}},
+                 {{1.0}, {}}, {.duration = 1.0});
   check_balance(stiff.energy);
   constexpr double kStiff = 1e-3;  // omega c / k
   CHECK_THAT(stiff.energy.dissipated[1], WithinRel(50.0 - viscous_energy(oscillator, 1.0), kStiff));

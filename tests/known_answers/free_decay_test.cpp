@@ -186,10 +186,8 @@ TEST_CASE("A hysteretic spring decays as the viscous damper that equals it at th
   using namespace mechanics;
   const double m = 2.0, k = 200.0, eta = 0.08;
   const Network network{.masses = {"x"},
-                        .prescribed = {},
-                        .elements = {{"mount", ElementType::hysteretic, Node{}, Node{NodeKind::mass, 0}}},
-                        .excitations = {}};
-  NetworkValues values{.mass = {m}, .element = {k}, .excitation = {}, .second = {eta}};
+                        .elements = {{"mount", ElementType::hysteretic, Node{}, Node{NodeKind::mass, 0}}}};
+  NetworkValues values{.mass = {m}, .element = {k}, .second = {eta}};
   const FreeDecay decay = free_decay(network, values, {{0.1}, {}}, {});
   CHECK_THAT(decay.hysteretic_omega, WithinRel(10.0, kExact));
   // c = eta k / omega_n = 2 zeta m omega_n: zeta = eta / 2
@@ -207,20 +205,16 @@ mechanics::Network free_rig() {
   using namespace mechanics;
   const Node ground{}, main{NodeKind::mass, 0}, tmd{NodeKind::mass, 1};
   return {.masses = {"main", "tmd"},
-          .prescribed = {},
           .elements = {{"suspension", ElementType::spring, ground, main},
                        {"guide_damper", ElementType::damper, ground, main},
                        {"guide", ElementType::coulomb, ground, main},
                        {"tmd_spring", ElementType::spring, tmd, main},
                        {"tmd_damper", ElementType::damper, tmd, main},
                        {"inerter", ElementType::inerter, tmd, main},
-                       {"tmd_friction", ElementType::coulomb, tmd, main}},
-          .excitations = {}};
+                       {"tmd_friction", ElementType::coulomb, tmd, main}}};
 }
 mechanics::NetworkValues free_rig_values(double D, double d) {
-  return {.mass = {102.66, 12.82},
-          .element = {7.0 * 8181.0, 1.7688, D, 10985.1, 29.57, 6.36, d},
-          .excitation = {}};
+  return {.mass = {102.66, 12.82}, .element = {7.0 * 8181.0, 1.7688, D, 10985.1, 29.57, 6.36, d}};
 }
 
 TEST_CASE("Two masses with two frictions move as the independent integration says, until they rest") {

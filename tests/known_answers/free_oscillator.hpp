@@ -22,14 +22,12 @@ struct FreeOscillator {
     using namespace mechanics;
     const Node ground{}, mass{NodeKind::mass, 0};
     return {.masses = {"x"},
-            .prescribed = {},
             .elements = {{"spring", ElementType::spring, ground, mass},
                          {"damper", ElementType::damper, ground, mass},
-                         {"friction", ElementType::coulomb, ground, mass}},
-            .excitations = {}};
+                         {"friction", ElementType::coulomb, ground, mass}}};
   }
   mechanics::NetworkValues values() const {
-    return {.mass = {m}, .element = {k, 2.0 * zeta * std::sqrt(k * m), x_f * k}, .excitation = {}};
+    return {.mass = {m}, .element = {k, 2.0 * zeta * std::sqrt(k * m), x_f * k}};
   }
 
   // The turning points from a release at x_0, for zeta < 1: |x_{i+1}| = beta |x_i| - x_f (1 + beta), of a

@@ -23,7 +23,6 @@ constexpr double kLower = 2.0, kJoint = 0.3, kUpper = 0.4;
 // The driven mass is held to the ground by one contact, and by two in series through the mass next to it.
 Network clamp() {
   return {.masses = {"driven", "beside"},
-          .prescribed = {},
           .elements = {{"spring", ElementType::spring, kGround, kDriven},
                        {"link", ElementType::spring, kDriven, kBeside},
                        {"damper", ElementType::damper, kGround, kDriven},
@@ -183,8 +182,7 @@ TEST_CASE("Contacts of a loop that are to slide, and are held by the others, res
   NetworkValues values{.omega = 0.3,
                        .mass = {1.0, 1.0, 1.0},
                        .element = {},
-                       .excitation = {{1.3186075135078057, 3.7175268151048755}, {1.9887514052594406, 0.0}},
-                       .second = {}};
+                       .excitation = {{1.3186075135078057, 3.7175268151048755}, {1.9887514052594406, 0.0}}};
   std::vector<std::string> names;
   for (const Joint& joint : joints) {
     names.push_back("joint" + std::to_string(names.size()));

@@ -66,7 +66,6 @@ TEST_CASE("Masses that friction ties stay together through a long period, within
   using namespace mechanics;
   const Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
   Responses responses({.masses = {"a", "b"},
-                       .prescribed = {},
                        .elements = {{"ka", ElementType::spring, ground, a},
                                     {"kb", ElementType::spring, ground, b},
                                     {"c", ElementType::damper, ground, a},

@@ -9,6 +9,7 @@
 #include "tests/known_answers/event_integrator.hpp"
 #include "tests/known_answers/random_network.hpp"
 #include "tests/known_answers/responses.hpp"
+#include "tests/known_answers/single_mass.hpp"
 
 // Stops, tables and static friction: laws that are linear piece by piece. One mass of x'' + 2 zeta x' + x
 // plus such an element under cos(r tau), by figures of two independent methods (project's contract, section
@@ -25,19 +26,8 @@ constexpr double kBalance = 1e-10;  // of the energy
 
 const Node ground{}, mass{NodeKind::mass, 0};
 
-Network one_mass_with(Element element) {
-  return {.masses = {"x"},
-          .prescribed = {},
-          .elements = {{"spring", ElementType::spring, ground, mass},
-                       {"damper", ElementType::damper, ground, mass},
-                       std::move(element)},
-          .excitations = {{ExcitationKind::force, 0, 1}}};
-}
-
 Network mass_between_stops() {
-  Element stops{"stops", ElementType::gap, ground, mass};
-  stops.bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
-  return one_mass_with(stops);
+  return driven_mass({elastic_stops({1.0, -1.0})});
 }
 
 // zeta = 0.05, stops of stiffness 4 at a clearance of 1.
@@ -51,9 +41,7 @@ NetworkValues between_stops(double r, double c = 0.0, double clearance = 1.0, do
 }
 
 Network mass_with_static_friction() {
-  Element friction{"guide", ElementType::coulomb, ground, mass};
-  friction.has_static_force = true;
-  return one_mass_with(friction);
+  return driven_mass({static_friction()});
 }
 
 NetworkValues with_static_friction(double r, double zeta, double F, double F_s) {
@@ -201,13 +189,12 @@ TEST_CASE("Of two guides side by side each carries no more than its own law allo
 TEST_CASE("A damper's table of one slope is a damper, and a rising one keeps the error bound") {
   Element absorber{"absorber", ElementType::damper, ground, mass};
   absorber.bends = {{1.0, &laws::damper_bend}, {-1.0, &laws::damper_bend}};
-  Responses responses(one_mass_with(absorber));
+  Responses responses(driven_mass({absorber}));
   const auto values = [](double r, double bump, double rebound) {
     return NetworkValues{.omega = r,
                          .mass = {1.0},
                          .element = {1.0, 0.05, 0.2},
                          .excitation = {{1.0, 0.0}},
-                         .second = {},
                          .bends = {{}, {}, {{0.1, 0.0, bump}, {0.05, 0.0, rebound}}}};
   };
   for (const double r : {0.5, 1.0, 1.7}) {

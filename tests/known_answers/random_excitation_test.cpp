@@ -18,10 +18,7 @@ constexpr double pi = std::numbers::pi;
 
 // A mass of 1 kg under a random force, with what holds and brakes it.
 struct Shaken {
-  Network network{.masses = {"m"},
-                  .prescribed = {},
-                  .elements = {},
-                  .excitations = {{ExcitationKind::recorded_force, 0, 0}}};
+  Network network{.masses = {"m"}, .elements = {}, .excitations = {{ExcitationKind::recorded_force, 0, 0}}};
   NetworkValues values{.omega = 1.0, .mass = {1.0}, .element = {}, .excitation = {{1.0, 0.0}}};
 
   void add(const char* name, ElementType type, double value) {

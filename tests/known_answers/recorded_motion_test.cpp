@@ -39,7 +39,7 @@ double largest(const Samples& history) {
 // One mass of 1 kg on a spring of 1 N/m; with a support, the spring ends there.
 Network one_mass(ExcitationKind kind) {
   const bool is_force = kind == ExcitationKind::recorded_force;
-  Network network{.masses = {"m"}, .prescribed = {}, .elements = {}, .excitations = {{kind, 0, 0}}};
+  Network network{.masses = {"m"}, .elements = {}, .excitations = {{kind, 0, 0}}};
   if (!is_force) network.prescribed = {"base"};
   const Node end = is_force ? Node{} : Node{NodeKind::prescribed, 0};
   network.elements.push_back({"k", ElementType::spring, end, {NodeKind::mass, 0}});
@@ -135,7 +135,8 @@ TEST_CASE("Records that are none are refused by name") {
   refused({.name = "short", .of = RecordOf::force, .time = {0.0}, .values = {0.0}}, "record 'short'");
   refused({.name = "back", .of = RecordOf::force, .time = {0.0, 0.0}, .values = {0, 0}}, "must ascend");
   refused({.name = "nan", .of = RecordOf::force, .time = {0.0, 1.0}, .values = {0, NAN}}, "finite");
-  refused({.name = "y", .of = RecordOf::velocity, .time = {0.0, 1.0}, .values = {0, 1}}, "a motion belongs to a support");
+  refused({.name = "y", .of = RecordOf::velocity, .time = {0.0, 1.0}, .values = {0, 1}},
+          "a motion belongs to a support");
   CHECK_THROWS_WITH(motion_of(network, kUnit, {}, 1.0, 2), Catch::Contains("has no record"));
 }
 

@@ -28,7 +28,7 @@ Network storeys(const Node& foot) {
 }
 
 NetworkValues values_of_storeys(double friction) {
-  return {.omega = 1.0, .mass = {1.0, 0.7}, .element = {1.0, 0.8, 0.1, friction}, .excitation = {}};
+  return {.omega = 1.0, .mass = {1.0, 0.7}, .element = {1.0, 0.8, 0.1, friction}};
 }
 
 TEST_CASE("a decay tells of a signal of one mass what it tells of the mass") {

@@ -16,7 +16,6 @@ constexpr double kReturns = 1e-10;  // of the state's size; the largest multipli
 Network absorber() {
   const Node ground{}, main{NodeKind::mass, 0}, tmd{NodeKind::mass, 1};
   return {.masses = {"main", "tmd"},
-          .prescribed = {},
           .elements = {{"s", ElementType::spring, ground, main},
                        {"t", ElementType::spring, main, tmd},
                        {"c", ElementType::coulomb, main, tmd}},

@@ -43,7 +43,6 @@ Task absorber_behind_stops(const Machine& machine, const tuning::Band& band) {
   Element stops{"stops", ElementType::gap, main, absorber};
   stops.bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
   task.network = {.masses = {"machine", "absorber"},
-                  .prescribed = {},
                   .elements = {{"mount", ElementType::spring, ground, main},
                                {"mount_damper", ElementType::damper, ground, main},
                                {"spring", ElementType::spring, main, absorber},

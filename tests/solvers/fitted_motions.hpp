@@ -94,10 +94,7 @@ inline Identification fit(const mechanics::Network& network, const Model& truth,
   GreyBoxTask task{.network = network,
                    .model_at = model_with({truth}, places),
                    .parameters = started_off(truth, places, factors),
-                   .fixed = {},
-                   .fixed_covariance = {},
-                   .records = std::move(records),
-                   .watch = {}};
+                   .records = std::move(records)};
   return grey_box(task);
 }
 

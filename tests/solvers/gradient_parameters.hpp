@@ -1,5 +1,7 @@
 #pragma once
 
+#include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +76,26 @@ inline std::vector<NamedParameter> all_parameters(const mechanics::Network& netw
     add(name + " rod", [k](NetworkValues& v) -> double& { return v.excitation[k].rod; });
   }
   return list;
+}
+
+// Checks every derivative against a difference, by a relative tolerance or by the difference's own
+// uncertainty.
+inline void check_derivatives(const mechanics::Network& network, const std::vector<Quantity>& quantities,
+                              const mechanics::NetworkValues& values, double tolerance) {
+  std::vector<CheckedParameter> parameters;
+  for (const NamedParameter& named : all_parameters(network, values)) parameters.push_back(named.parameter);
+  const GradientCheck check = check_gradient(network, quantities, values, parameters);
+  INFO("omega " << values.omega << " " << check.reason);
+  REQUIRE(check.reason.empty());
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+      const DerivativeCheck& each = check.columns[p][q];
+      INFO("parameter " << p << " quantity " << q << ": " << each.exact << " against " << each.difference);
+      const bool agrees = each.relative_difference() < tolerance ||
+                          std::abs(each.exact - each.difference) < 10.0 * each.uncertainty + 1e-9;
+      CHECK(agrees);
+    }
+  }
 }
 
 }  // namespace frahm::periodic

@@ -176,7 +176,7 @@ std::vector<DrivingRecord> read_driving_records(const StudyContext& context, con
   std::vector<DrivingRecord> all;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const TomlSection& section = sections[i];
-    DrivingRecord driving{.excitation = components[i], .on_axis = !section.find("file"), .records = {}};
+    DrivingRecord driving{.excitation = components[i], .on_axis = !section.find("file")};
     if (driving.on_axis && !axis)
       section.fail_here(rules::missing_key,
                         "the key \"file\" is missing: give the file of the record, unless {} gives records",

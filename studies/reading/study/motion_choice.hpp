@@ -31,9 +31,9 @@ struct DecayChoice : MotionChoice {
 
 // [[excitation.record]]: what drives one component of the excitation.
 struct DrivingRecord {
-  std::size_t excitation = 0;              // in Network::excitations, of a recorded kind
-  bool on_axis = false;                    // an axis gives the records
-  std::vector<transient::Record> records;  // one, or that of each value of the axis
+  std::size_t excitation = 0;                // in Network::excitations, of a recorded kind
+  bool on_axis = false;                      // an axis gives the records
+  std::vector<transient::Record> records{};  // one, or that of each value of the axis
 };
 
 // What drives the motion at a value of the axis of records: records of `driving`.

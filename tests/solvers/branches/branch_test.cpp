@@ -290,9 +290,7 @@ TEST_CASE("A branch stops after as many points as are wanted") {
 // The upper stop is only just touched at r = 1.25960079587108: where the largest displacement is the
 // clearance, by halving over points.
 TEST_CASE("A grazing that lies at the section of its orbits has its residual too") {
-  Network network = mass_between_stops();
-  network.elements.push_back({"guide", ElementType::coulomb, ground, mass});
-  network.elements.back().has_static_force = true;
+  Network network = driven_mass({elastic_stops({1.0, -1.0}), static_friction()});
   network.excitations.push_back({ExcitationKind::force, 0, 0});
   const auto values = [](double r) {
     return NetworkValues{.omega = r,

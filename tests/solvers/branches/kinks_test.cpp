@@ -59,9 +59,7 @@ TEST_CASE("A branch goes on where two events change their order") {
                          .second = {0.0, 0.0, 0.0, 1.7 * 0.247},
                          .bends = {{}, {}, {stop, stop}, {}}};
   };
-  Network network = mass_between_stops();
-  network.elements.push_back({"friction", ElementType::coulomb, ground, mass});
-  network.elements.back().has_static_force = true;
+  const Network network = driven_mass({elastic_stops({1.0, -1.0}), static_friction()});
   const Branch branch =
       follow_branch(network, asked, linear(values), {.low = 0.15, .high = 2.5, .start = 0.395});
   CHECK(branch.first_end == BranchEnd::closed);

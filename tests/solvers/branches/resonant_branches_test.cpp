@@ -26,7 +26,6 @@ const std::vector<Quantity> asked{{Measure::peak, 0}, {Measure::energy_balance, 
 TEST_CASE("A branch towards an undamped resonance stays right until its response is unbounded") {
   constexpr double kStiffness = 5.0, kForce = 2.0, kFriction = 0.1 + 0.4;
   Network network{.masses = {"x"},
-                  .prescribed = {},
                   .elements = {{"spring", ElementType::spring, ground, mass},
                                {"first", ElementType::jenkins, ground, mass},
                                {"second", ElementType::jenkins, ground, mass}},
@@ -72,7 +71,6 @@ TEST_CASE("A branch towards an undamped resonance stays right until its response
 TEST_CASE("A branch goes on where a slider begins to slip next to a resonance of a higher harmonic") {
   const mechanics::Node other{mechanics::NodeKind::mass, 1};
   Network network{.masses = {"x", "y"},
-                  .prescribed = {},
                   .elements = {{"first", ElementType::spring, ground, mass},
                                {"second", ElementType::spring, mass, other},
                                {"slider", ElementType::jenkins, mass, other}},
@@ -117,7 +115,6 @@ TEST_CASE("A branch goes on where a slider begins to slip next to a resonance of
 // may be added where that is three times the excitation's.
 TEST_CASE("A branch ends where a family of orbits has one value of the parameter, and says so") {
   Network network{.masses = {"x"},
-                  .prescribed = {},
                   .elements = {{"spring", ElementType::spring, ground, mass},
                                {"slider", ElementType::jenkins, ground, mass}},
                   .excitations = {{ExcitationKind::force, 0, 1}}};

@@ -20,8 +20,7 @@ struct MassWithSlider {
   double frequency = 1.0, slip_force = 0.7, steady = 0.0;
 
   static Network network() {
-    Network network = driven_mass();
-    network.elements.push_back({"slider", ElementType::jenkins, ground, mass});
+    Network network = driven_mass({on_the_mass("slider", ElementType::jenkins)});
     network.excitations.push_back({ExcitationKind::force, 0, 0});
     return network;
   }

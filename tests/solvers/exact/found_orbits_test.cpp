@@ -5,9 +5,9 @@
 #include <complex>
 #include <vector>
 
-#include "solvers/laws/elastic_stop.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "tests/known_answers/responses.hpp"
+#include "tests/known_answers/single_mass.hpp"
 
 namespace frahm::periodic::found_orbits_test {
 namespace {
@@ -27,7 +27,6 @@ constexpr double kOk = 1.0, kGrazing = 2.0, kSeveral = 5.0, kStuck = 5.0;
 //   a(tau) = B + Re 0.2 e^(i r tau) / (1 - 2 r^2 + 0.1 i r).
 TEST_CASE("Masses held by static friction under a constant load rest in one position that it can hold") {
   Network network{.masses = {"a", "b"},
-                  .prescribed = {},
                   .elements = {{"ka", ElementType::spring, ground, first},
                                {"kb", ElementType::spring, first, second},
                                {"ca", ElementType::damper, ground, first},
@@ -57,12 +56,7 @@ TEST_CASE("Masses held by static friction under a constant load rest in one posi
 
 // The slider never slips from |x| < F/k_t on: it is a spring, and the joint to the first mass sticks.
 TEST_CASE("A slider that never slips is counted, and its response is the one without an offset") {
-  const Network network{.masses = {"x"},
-                        .prescribed = {},
-                        .elements = {{"spring", ElementType::spring, ground, first},
-                                     {"damper", ElementType::damper, ground, first},
-                                     {"slider", ElementType::jenkins, ground, first}},
-                        .excitations = {{ExcitationKind::force, 0, 1}}};
+  const Network network = driven_mass({on_the_mass("slider", ElementType::jenkins)});
   Responses responses(network);
   const auto solve = [&](double F) {
     responses.solve({.omega = 0.546,
@@ -83,15 +77,8 @@ TEST_CASE("A slider that never slips is counted, and its response is the one wit
 // Of the offsets that the slider's limit allows, -0.12056 to -0.06660, the energy of the mean state falls
 // towards the first, where the slider's force just reaches its limit.
 TEST_CASE("Of a slider that never slips next to a stop the offset of least energy is shown") {
-  Network network{.masses = {"x"},
-                  .prescribed = {},
-                  .elements = {{"spring", ElementType::spring, ground, first},
-                               {"damper", ElementType::damper, ground, first},
-                               {"stop", ElementType::gap, ground, first},
-                               {"slider", ElementType::jenkins, ground, first},
-                               {"friction", ElementType::coulomb, ground, first}},
-                  .excitations = {{ExcitationKind::force, 0, 1}}};
-  network.elements[2].bends = {{-1.0, &laws::elastic_stop}};
+  const Network network = driven_mass({elastic_stops({-1.0}), on_the_mass("slider", ElementType::jenkins),
+                                       on_the_mass("friction", ElementType::coulomb)});
   Responses responses(network);
   responses.solve({.omega = 2.049,
                    .mass = {1.0},
@@ -111,14 +98,7 @@ TEST_CASE("Of a slider that never slips next to a stop the offset of least energ
 // periods (lowest points -0.196116 and -0.47327), at r = 9 one of 5. At each some of the 8 starts of the
 // search are on none of up to 6 periods.
 TEST_CASE("Starts whose motions settle on no orbit of the multiples searched are counted") {
-  Network network{.masses = {"x"},
-                  .prescribed = {},
-                  .elements = {{"spring", ElementType::spring, ground, first},
-                               {"damper", ElementType::damper, ground, first},
-                               {"stop", ElementType::gap, ground, first}},
-                  .excitations = {{ExcitationKind::force, 0, 1}}};
-  network.elements[2].bends = {{1.0, &laws::elastic_stop}};
-  Responses responses(network);
+  Responses responses(driven_mass({elastic_stops({1.0})}));
   const auto solve = [&](double r) {
     responses.solve({.omega = r,
                      .mass = {1.0},
@@ -142,14 +122,7 @@ TEST_CASE("Starts whose motions settle on no orbit of the multiples searched are
 // One start leads to one of both, whose motion is from -0.354874840919 to 0.351252539400: figures of a
 // Dormand-Prince integration of order 8 from event to event, closed by Newton's method.
 TEST_CASE("Of two orbits that are mirror images of each other both are found from one start") {
-  Network network{.masses = {"x"},
-                  .prescribed = {},
-                  .elements = {{"spring", ElementType::spring, ground, first},
-                               {"damper", ElementType::damper, ground, first},
-                               {"stops", ElementType::gap, ground, first}},
-                  .excitations = {{ExcitationKind::force, 0, 1}}};
-  network.elements[2].bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
-  Responses responses(network, {.starts = 1});
+  Responses responses(driven_mass({elastic_stops({1.0, -1.0})}), {.starts = 1});
   responses.solve({.omega = 1.55,
                    .mass = {1.0},
                    .element = {1.0, 0.1, 20.0},

@@ -16,7 +16,6 @@ const Node ground{}, mass{NodeKind::mass, 0};
 
 Network hysteretic_mass(int order = 1) {
   return {.masses = {"x"},
-          .prescribed = {},
           .elements = {{"material", ElementType::hysteretic, ground, mass}},
           .excitations = {{ExcitationKind::force, 0, order}},
           .reference_order = order};

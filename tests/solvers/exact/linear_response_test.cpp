@@ -19,7 +19,6 @@ const Node ground{}, mass{NodeKind::mass, 0}, base{NodeKind::prescribed, 0};
 
 Network forced() {
   return {.masses = {"x"},
-          .prescribed = {},
           .elements = {{"spring", ElementType::spring, ground, mass},
                        {"damper", ElementType::damper, ground, mass}},
           .excitations = {{ExcitationKind::force, 0, 1}}};

@@ -26,7 +26,6 @@ mechanics::Network zener(bool shaken) {
   const mechanics::Node main{NodeKind::mass, 0};
   mechanics::Network network{
       .masses = {"main"},
-      .prescribed = {},
       .elements = {{"spring", ElementType::spring, base, main}, {"branch", ElementType::maxwell, base, main}},
       .excitations = {{ExcitationKind::force, 0, 1}}};
   if (shaken) {
@@ -126,7 +125,6 @@ TEST_CASE("A Maxwell element with a stiff damper is a spring, with a stiff sprin
 TEST_CASE("A strained Maxwell element bounds a resonance, one that is not strained does not") {
   const mechanics::Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
   mechanics::Network network{.masses = {"a", "b"},
-                             .prescribed = {},
                              .elements = {{"ka", ElementType::spring, ground, a},
                                           {"kb", ElementType::spring, ground, b},
                                           {"link", ElementType::maxwell, a, b}},

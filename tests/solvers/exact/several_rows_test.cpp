@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "solvers/laws/elastic_stop.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
+#include "tests/known_answers/single_mass.hpp"
 
 namespace frahm::periodic::several_rows_test {
 namespace {
@@ -22,19 +22,8 @@ constexpr double kClosed = 1e-10;                                       // of cl
 
 const Node ground{}, mass{NodeKind::mass, 0};
 
-Network mass_with(Element element) {
-  return {.masses = {"x"},
-          .prescribed = {},
-          .elements = {{"spring", ElementType::spring, ground, mass},
-                       {"damper", ElementType::damper, ground, mass},
-                       std::move(element)},
-          .excitations = {{ExcitationKind::force, 0, 1}}};
-}
-
 Network mass_between_stops() {
-  Element stops{"stops", ElementType::gap, ground, mass};
-  stops.bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
-  return mass_with(stops);
+  return driven_mass({elastic_stops({1.0, -1.0})});
 }
 
 // zeta = 0.05, stops of stiffness 4 at a clearance of 1, or of infinity below: then one-sided.
@@ -56,9 +45,7 @@ NetworkValues on_a_stop(double r) {
 }
 
 Network mass_on_a_stop() {
-  Element stop{"stop", ElementType::gap, ground, mass};
-  stop.bends = {{-1.0, &laws::elastic_stop}};
-  return mass_with(stop);
+  return driven_mass({elastic_stops({-1.0})});
 }
 
 struct Row {
@@ -189,15 +176,13 @@ TEST_CASE("A search along a row finds the orbits of the points before and of tho
 // The force reaches the static limit and no further: rest is periodic there, but the least disturbance breaks
 // it loose.
 TEST_CASE("Rest at the very limit of a static force is no stable orbit, just below it is one") {
-  Element friction{"guide", ElementType::coulomb, ground, mass};
-  friction.has_static_force = true;
   const auto coexisting_at = [&](double F_s) {
     const NetworkValues values{.omega = 0.8,
                                .mass = {1.0},
                                .element = {1.0, 0.1, 0.2},
                                .excitation = {{1.0, 0.0}},
                                .second = {0.0, 0.0, F_s}};
-    return solve_row(mass_with(friction), {values}, {}).found.front().coexisting;
+    return solve_row(driven_mass({static_friction()}), {values}, {}).found.front().coexisting;
   };
   CHECK(coexisting_at(1.0) == 1);
   CHECK(coexisting_at(1.01) == 2);

@@ -50,16 +50,13 @@ struct Case {
 Case bouncing() {
   Case of;
   of.network = {.masses = {"x"},
-                .prescribed = {},
                 .elements = {{"spring", ElementType::spring, ground, mass},
                              {"damper", ElementType::damper, ground, mass},
-                             {"stop", ElementType::gap, ground, mass}},
-                .excitations = {}};
+                             {"stop", ElementType::gap, ground, mass}}};
   of.network.elements[2].bends = {{1.0, &laws::elastic_stop}};
   of.truth = {{.omega = 1.0,
                .mass = {1.0},
                .element = {1.0, 0.02, 6.0},
-               .excitation = {},
                .second = {0.0, 0.0, 0.3},
                .bends = {{}, {}, {{0.4, 6.0, 0.3}}}},
               {{-1.0}, {0.0}}};
@@ -74,7 +71,6 @@ Case bouncing() {
 Case dragging() {
   Case of;
   of.network = {.masses = {"x"},
-                .prescribed = {},
                 .elements = {{"spring", ElementType::spring, ground, mass},
                              {"damper", ElementType::damper, ground, mass},
                              {"guide", ElementType::coulomb, ground, mass}},
@@ -106,7 +102,6 @@ Case shaken_tables() {
                .mass = {1.0},
                .element = {1.0, 0.2},
                .excitation = {{0.5, 0.3}},
-               .second = {},
                .bends = {{{0.3, 1.5, 0.0}}, {{0.2, 0.0, 0.3}, {0.3, 0.0, -0.1}}}},
               {{0.1}, {0.0}}};
   of.places = {element("k", 0), clearance(0),          contact_stiffness(0),
@@ -237,11 +232,9 @@ TEST_CASE("A spring is found where two equal stops are touched and left at one i
     INFO("damping " << c);
     const auto bumpers = [&](std::size_t count) {
       Network network{.masses = {"x"},
-                      .prescribed = {},
                       .elements = {{"spring", ElementType::spring, ground, mass},
-                                   {"damper", ElementType::damper, ground, mass}},
-                      .excitations = {}};
-      Model model{{.omega = 1.0, .mass = {1.0}, .element = {1000.0, 1.0}, .excitation = {}}, {{0.03}, {0.0}}};
+                                   {"damper", ElementType::damper, ground, mass}}};
+      Model model{{.omega = 1.0, .mass = {1.0}, .element = {1000.0, 1.0}}, {{0.03}, {0.0}}};
       model.values.second = {0.0, 0.0};
       model.values.bends = {{}, {}};
       const double share = 1.0 / static_cast<double>(count);

@@ -17,7 +17,7 @@ const std::vector<Place> kPlaces = {element("c", 1), element("k", 0), element("F
                                     initial_displacement(0)};
 
 Model absorber(double c, double k, double F, double x_0) {
-  return {{.omega = 1.0, .mass = {12.82}, .element = {k, c, F}, .excitation = {}}, {{x_0}, {0.0}}};
+  return {{.omega = 1.0, .mass = {12.82}, .element = {k, c, F}}, {{x_0}, {0.0}}};
 }
 const Model kTruth = absorber(3.0, 10985.1, 15.0, 0.03);
 
@@ -41,10 +41,7 @@ GreyBoxTask task_of(const TimeRecord& record, const Model& start) {
   GreyBoxTask task{.network = kNetwork,
                    .model_at = model_with({kTruth}, kPlaces),
                    .parameters = started_off(start, kPlaces, {1.0, 1.0, 1.0, 1.0}),
-                   .fixed = {},
-                   .fixed_covariance = {},
-                   .records = {record},
-                   .watch = {}};
+                   .records = {record}};
   const double upper[] = {50.0, 20000.0, 100.0, 0.1};
   for (std::size_t i = 0; i < 4; ++i) {
     task.parameters[i].lower = i == 1 ? 5000.0 : 0.0;
@@ -130,10 +127,7 @@ TEST_CASE("A forced motion is found from friction that holds the model, and from
                      .parameters = {{"c", "1", start[0], 0.0, 50.0, false},
                                     {"k", "1", start[1], 5e3, 2e4, false},
                                     {"F", "1", start[2], 0.0, 100.0, false}},
-                     .fixed = {},
-                     .fixed_covariance = {},
-                     .records = {record},
-                     .watch = {}};
+                     .records = {record}};
     const Identification found = grey_box(task);
     INFO("from F = " << start[2] << ": c, k, F = " << found.estimates[0].value << ", "
                      << found.estimates[1].value << ", " << found.estimates[2].value);

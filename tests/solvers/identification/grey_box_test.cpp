@@ -150,10 +150,7 @@ TEST_CASE("Each record has a release of its own, the parameters are common to al
   GreyBoxTask task{.network = network,
                    .model_at = model_with({kReleased}, kPlaces),
                    .parameters = started_off(kReleased, kPlaces, {1.2, 0.6, 1.3, 1.0}),
-                   .fixed = {},
-                   .fixed_covariance = {},
-                   .records = records,
-                   .watch = {}};
+                   .records = records};
   task.parameters[3].each_record = true;
   const Identification found = grey_box(task);
   REQUIRE(found.failure.empty());
@@ -251,29 +248,18 @@ TEST_CASE("What is uncertain of a fixed parameter adds to what it is fixed for, 
   };
   const FittedParameter c_m{"c_m", "N s m-1", 0.5, 0.0, kInfinity, false};
   const FittedParameter c{"c", "N s m-1", 0.5, 0.0, kInfinity, false};
-  const GreyBoxTask of_first{.network = network,
-                             .model_at = model_of(0, true),
-                             .parameters = {c_m},
-                             .fixed = {},
-                             .fixed_covariance = {},
-                             .records = {first},
-                             .watch = {}};
+  const GreyBoxTask of_first{
+      .network = network, .model_at = model_of(0, true), .parameters = {c_m}, .records = {first}};
   const Identification known = grey_box(of_first);
-  const GreyBoxTask of_both{.network = network,
-                            .model_at = model_of(0, true),
-                            .parameters = {c_m, c},
-                            .fixed = {},
-                            .fixed_covariance = {},
-                            .records = {first, second},
-                            .watch = {}};
+  const GreyBoxTask of_both{
+      .network = network, .model_at = model_of(0, true), .parameters = {c_m, c}, .records = {first, second}};
   const Identification joint = grey_box(of_both);
   const GreyBoxTask of_second{.network = network,
                               .model_at = model_of(1, false),
                               .parameters = {c},
                               .fixed = {{"c_m", "N s m-1", known.estimates[0].value}},
                               .fixed_covariance = known.covariance,
-                              .records = {second},
-                              .watch = {}};
+                              .records = {second}};
   const Identification chained = grey_box(of_second);
   REQUIRE(joint.failure.empty());
   REQUIRE(chained.failure.empty());
@@ -290,10 +276,7 @@ TEST_CASE("A bound that holds a parameter is told of") {
   GreyBoxTask task{.network = kOscillator.network(),
                    .model_at = model_with({kReleased}, kPlaces),
                    .parameters = started_off(kReleased, kPlaces, {1.0, 1.0, 0.8, 1.0}),
-                   .fixed = {},
-                   .fixed_covariance = {},
-                   .records = {record},
-                   .watch = {}};
+                   .records = {record}};
   task.parameters[2].lower = 0.0;
   task.parameters[2].upper = 0.9 * kReleased.values.element[2];
   const Identification found = grey_box(task);

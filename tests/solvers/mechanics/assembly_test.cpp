@@ -71,11 +71,9 @@ TEST_CASE("A support acts through springs, dampers and inerters together") {
 TEST_CASE("Coulomb elements between the same two nodes are one contact, shared with their directions") {
   const Node ground{}, mass{NodeKind::mass, 0};
   const Network network{.masses = {"m"},
-                        .prescribed = {},
                         .elements = {{"k", ElementType::spring, ground, mass},
                                      {"f1", ElementType::coulomb, ground, mass},
-                                     {"f2", ElementType::coulomb, mass, ground}},
-                        .excitations = {}};
+                                     {"f2", ElementType::coulomb, mass, ground}}};
   const Assembly assembly(network);
   CHECK(assembly.contacts() == 1);
   CHECK(assembly.shares()[1].orientation == 1.0);

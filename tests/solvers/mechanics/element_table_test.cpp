@@ -66,11 +66,9 @@ TEST_CASE("What a row says of its kind is what the kind adds") {
 TEST_CASE("A contact knows its law, and that no internal force is its own under Coulomb's") {
   const Node ground{}, mass{NodeKind::mass, 0};
   const Network network{.masses = {"m"},
-                        .prescribed = {},
                         .elements = {{"k", ElementType::spring, ground, mass},
                                      {"z", ElementType::maxwell, ground, mass},
-                                     {"f", ElementType::coulomb, ground, mass}},
-                        .excitations = {}};
+                                     {"f", ElementType::coulomb, ground, mass}}};
   const Assembly assembly(network);
   LinearSystem system;
   assembly.set_values({1.0, {1.0}, {1.0, 2.0, 0.5}, {}, {0.0, 4.0, 0.0}}, system);
@@ -86,13 +84,11 @@ TEST_CASE(
     "A Jenkins element is a contact of its own, whose force is an internal one that no damper lets go") {
   const Node ground{}, mass{NodeKind::mass, 0};
   const Network network{.masses = {"m"},
-                        .prescribed = {},
                         .elements = {{"k", ElementType::spring, ground, mass},
                                      {"z", ElementType::maxwell, ground, mass},
                                      {"f", ElementType::coulomb, ground, mass},
                                      {"j1", ElementType::jenkins, mass, ground},
-                                     {"j2", ElementType::jenkins, mass, ground}},
-                        .excitations = {}};
+                                     {"j2", ElementType::jenkins, mass, ground}}};
   const Assembly assembly(network);
   LinearSystem system;
   assembly.set_values({1.0, {1.0}, {1.0, 2.0, 0.5, 3.0, 5.0}, {}, {0.0, 4.0, 0.0, 0.7, 0.8}}, system);
@@ -112,11 +108,9 @@ TEST_CASE(
 TEST_CASE("A massless node that a spring and a slider meet in is told of the jenkins element") {
   const Node ground{}, mass{NodeKind::mass, 0}, joint{NodeKind::mass, 1};
   const Network network{.masses = {"m", "joint"},
-                        .prescribed = {},
                         .elements = {{"k", ElementType::spring, ground, mass},
                                      {"brace", ElementType::spring, mass, joint},
-                                     {"slider", ElementType::coulomb, ground, joint}},
-                        .excitations = {}};
+                                     {"slider", ElementType::coulomb, ground, joint}}};
   const Assembly assembly(network);
   LinearSystem system;
   CHECK_THROWS_WITH(assembly.set_values({1.0, {1.0, 0.0}, {1.0, 3.0, 0.7}, {}}, system),

@@ -182,7 +182,6 @@ TEST_CASE("A structure that moves with its base as a rigid body is not damped by
 
 TEST_CASE("Modes of one frequency may have one ratio, but not two") {
   Network network{.masses = {"a", "b"},
-                  .prescribed = {},
                   .elements = {{"ka", ElementType::spring, ground, mass(0)},
                                {"kb", ElementType::spring, ground, mass(1)}},
                   .excitations = {{ExcitationKind::force, 0, 1}},

@@ -113,7 +113,6 @@ TEST_CASE("Modes of one frequency and one ratio have a derivative of their dampi
   // M sqrt(M^-1 K) of both, exact where divided differences would be 0/0.
   const Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
   const Network network{.masses = {"a", "b"},
-                        .prescribed = {},
                         .elements = {{"ka", ElementType::spring, ground, a},
                                      {"kb", ElementType::spring, ground, b},
                                      {"joint", ElementType::spring, a, b}},
@@ -153,7 +152,6 @@ TEST_CASE("So is that of a system shaken by a crank, exact or cut") {
 
 TEST_CASE("A hysteretic element whose frequency is given has a derivative by it, and none by omega") {
   const Network network{.masses = {"m"},
-                        .prescribed = {},
                         .elements = {{"rubber", ElementType::hysteretic, Node{}, Node{NodeKind::mass, 0}}},
                         .excitations = {{ExcitationKind::force, 0, 1}}};
   NetworkValues values{

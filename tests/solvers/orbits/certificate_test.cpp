@@ -60,7 +60,6 @@ TEST_CASE("The error bound holds against the closed form of motions without stop
 TEST_CASE("The bound holds where a contact is held far beyond its load") {
   const Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
   const Network network{.masses = {"a", "b"},
-                        .prescribed = {},
                         .elements = {{"ka", ElementType::spring, ground, a},
                                      {"ca", ElementType::damper, ground, a},
                                      {"kb", ElementType::spring, ground, b},

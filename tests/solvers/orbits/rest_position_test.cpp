@@ -90,7 +90,6 @@ TEST_CASE(
     "An absorber held by friction moves with its mass beside the resonances of an undamped system too") {
   const Node ground{}, main{NodeKind::mass, 0}, absorber{NodeKind::mass, 1};
   Responses responses({.masses = {"main", "absorber"},
-                       .prescribed = {},
                        .elements = {{"main_spring", ElementType::spring, ground, main},
                                     {"absorber_spring", ElementType::spring, main, absorber},
                                     {"friction", ElementType::coulomb, main, absorber}},

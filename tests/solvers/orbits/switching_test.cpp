@@ -34,7 +34,6 @@ bool is_solved(const Responses& responses) {
 // Accelerations [m/s^2] in the first instants.
 Eigen::Vector2d accelerations_from_rest(double pull, double to_ground, double between) {
   const Network network{.masses = {"a", "b"},
-                        .prescribed = {},
                         .elements = {{"k", ElementType::spring, kGround, kFirst},
                                      {"k2", ElementType::spring, kFirst, kSecond},
                                      {"ground", ElementType::coulomb, kGround, kFirst},

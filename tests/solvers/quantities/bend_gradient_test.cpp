@@ -13,12 +13,7 @@ namespace frahm::periodic::bend_gradient_test {
 namespace {
 
 using laws::damper_bend, laws::elastic_stop, laws::spring_bend;
-using mechanics::ElementType;
-using mechanics::ExcitationKind;
-using mechanics::Network;
-using mechanics::NetworkValues;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 
 // Of exact derivatives and differences, relative to the larger of the derivative and kSmallShare of quantity
 // over parameter.

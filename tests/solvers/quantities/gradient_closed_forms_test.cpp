@@ -11,8 +11,7 @@
 namespace frahm::periodic::gradient_closed_forms_test {
 namespace {
 
-using mechanics::Network;
-using mechanics::NetworkValues;
+using namespace mechanics;
 
 using Triple = std::array<double, 3>;
 constexpr double kClosedForm = 1e-9;

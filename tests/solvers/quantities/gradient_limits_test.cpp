@@ -12,10 +12,7 @@
 namespace frahm::periodic::gradient_limits_test {
 namespace {
 
-using mechanics::ElementType;
-using mechanics::ExcitationKind;
-using mechanics::Network;
-using mechanics::NetworkValues;
+using namespace mechanics;
 
 using Pair = std::array<double, 2>;
 

@@ -12,10 +12,7 @@
 namespace frahm::periodic::gradient_test {
 namespace {
 
-using mechanics::ElementType;
-using mechanics::ExcitationKind;
-using mechanics::Network;
-using mechanics::NetworkValues;
+using namespace mechanics;
 
 // Of exact derivatives and differences, relative to the larger of the derivative and kSmallShare of quantity
 // over parameter: what changes by less than a thousandth of the parameter's own change is judged by that.
@@ -220,8 +217,7 @@ TEST_CASE(
                                {"bolt", ElementType::coulomb, base, mass},
                                {"link", ElementType::spring, mass, rider},
                                {"link_damper", ElementType::damper, mass, rider},
-                               {"guide", ElementType::coulomb, ground, rider}},
-                  .excitations = {}};
+                               {"guide", ElementType::coulomb, ground, rider}}};
   network.excitations = {{ExcitationKind::motion, 0, 1},
                          {ExcitationKind::motion, 0, 2},
                          {ExcitationKind::force, 1, 1},

@@ -14,9 +14,7 @@ namespace quantity_table_test {
 namespace {
 
 using namespace frahm::periodic;
-using frahm::mechanics::ElementType;
-using frahm::mechanics::Network;
-using frahm::mechanics::NodeKind;
+using namespace frahm::mechanics;
 
 // As the page of the format writes a quantity of any owner.
 std::string name_on_page(const QuantityRow& row) {

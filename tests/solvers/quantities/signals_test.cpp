@@ -17,10 +17,7 @@
 namespace frahm::periodic::signals_test {
 namespace {
 
-using mechanics::Network;
-using mechanics::NetworkValues;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 
 constexpr double kSame = 1e-12;       // of a quantity that is the same thing twice
 constexpr double kTwoWays = 1e-10;    // from phases and by shooting, as difference() takes it
@@ -137,7 +134,6 @@ TEST_CASE("a relative motion that is rounding has no phase, from phases and by s
   const Node ground{};
   Network network{
       .masses = {"small", "large"},
-      .prescribed = {},
       .elements = {{"k1", ElementType::spring, ground, mass(0)},
                    {"k2", ElementType::spring, ground, mass(1)},
                    {"c1", ElementType::damper, ground, mass(0)},
@@ -170,7 +166,7 @@ TEST_CASE("a relative motion that is rounding has no phase, from phases and by s
 TEST_CASE("a mass that stands still while others move has no phase, from phases and by shooting") {
   using mechanics::ElementType;
   const Node ground{};
-  Network network{.masses = {"moves", "light", "heavy"}, .prescribed = {}, .elements = {}, .excitations = {}};
+  Network network{.masses = {"moves", "light", "heavy"}, .elements = {}};
   for (std::size_t i = 0; i < 3; ++i) {
     network.elements.push_back({"k" + std::to_string(i), ElementType::spring, ground, mass(i)});
     network.elements.push_back({"c" + std::to_string(i), ElementType::damper, ground, mass(i)});
@@ -192,7 +188,6 @@ TEST_CASE("a mass that stands still while others move has no phase, from phases 
 
 // A mass with friction in a chain, on a base that moves slowly: relative to it next to nothing moves.
 TEST_CASE("a displacement relative to the base is as exact where it is a small part of what it is made of") {
-  using namespace mechanics;
   Network network;
   network.masses = {"roof"};
   network.prescribed = {"base"};
@@ -293,7 +288,6 @@ TEST_CASE("a signal's derivatives are those of its mass, and of differences wher
 }
 
 TEST_CASE("under the arctan law a signal of one mass is that mass, and one along a spring its stroke") {
-  using namespace mechanics;
   Network network;
   network.masses = {"first", "roof"};
   network.prescribed = {"base"};

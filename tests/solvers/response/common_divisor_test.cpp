@@ -19,12 +19,7 @@ namespace {
 
 using Catch::WithinAbs;
 using Catch::WithinRel;
-using mechanics::ElementType;
-using mechanics::ExcitationKind;
-using mechanics::Network;
-using mechanics::NetworkValues;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 
 constexpr double kSame = 1e-10;
 constexpr double kRounding = 1e-11;  // of residuals and bounds, which are nothing else
@@ -33,7 +28,6 @@ constexpr double kRounding = 1e-11;  // of residuals and bounds, which are nothi
 Network shaken(int first, int second, int reference) {
   const Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
   return {.masses = {"a", "b"},
-          .prescribed = {},
           .elements = {{"k1", ElementType::spring, ground, a},
                        {"c1", ElementType::damper, ground, a},
                        {"guide", ElementType::coulomb, ground, a},
@@ -262,7 +256,6 @@ TEST_CASE("Gradients of divided orders agree with differences, the loss factor's
 TEST_CASE("A mass that sticks under order 30 alone rests where it does under order 1") {
   const Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
   const Network network{.masses = {"a", "b"},
-                        .prescribed = {},
                         .elements = {{"k1", ElementType::spring, ground, a},
                                      {"c1", ElementType::damper, ground, a},
                                      {"k2", ElementType::spring, a, b},

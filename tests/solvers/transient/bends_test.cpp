@@ -14,12 +14,7 @@ namespace frahm::transient::bends_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
-using mechanics::ElementType;
-using mechanics::ExcitationKind;
-using mechanics::Network;
-using mechanics::NetworkValues;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 
 constexpr double kExact = 1e-11;     // relative, of times and displacements over some periods
 constexpr double kBalanced = 1e-10;  // of energies
@@ -50,7 +45,7 @@ TEST_CASE("A free mass between symmetric stops swings with the period of the two
   network.elements = {{"spring", ElementType::spring, ground, first}, stops(ground, first, true)};
   for (const double a : {0.81, 1.0, 3.0}) {
     const NetworkValues values{
-        .mass = {m}, .element = {k_inner, k}, .excitation = {}, .bends = {{}, {{D, k, 0.0}, {D, k, 0.0}}}};
+        .mass = {m}, .element = {k_inner, k}, .bends = {{}, {{D, k, 0.0}, {D, k, 0.0}}}};
     const double w1 = std::sqrt(k_inner / m), w2 = std::sqrt((k_inner + k) / m);
     const double v1 = w1 * std::sqrt(a * a - D * D);
     const double T = 4.0 * (std::asin(D / a) / w1 + std::atan(v1 * w2 / (w1 * w1 * D)) / w2);
@@ -95,8 +90,7 @@ TEST_CASE("A free mass with a stop on one side, without clearance, swings at 2 w
   Network network;
   network.masses = {"mass"};
   network.elements = {{"spring", ElementType::spring, ground, first}, stops(ground, first, false)};
-  const NetworkValues values{
-      .mass = {m}, .element = {k_inner, k}, .excitation = {}, .bends = {{}, {{0.0, k, 0.0}}}};
+  const NetworkValues values{.mass = {m}, .element = {k_inner, k}, .bends = {{}, {{0.0, k, 0.0}}}};
   const double w1 = std::sqrt(k_inner / m), w2 = std::sqrt((k_inner + k) / m);
   const double T = std::numbers::pi * (w1 + w2) / (w1 * w2);
   for (const double x_0 : {1.0, -1.0}) {
@@ -138,8 +132,7 @@ TEST_CASE("A spring with a table softens or hardens a free mass's swing, whose e
   network.elements = {{"spring", ElementType::spring, ground, first}};
   network.elements[0].bends = {{+1.0, &laws::spring_bend}, {-1.0, &laws::spring_bend}};
   // Softer to the right of 0.3, harder to the left of -0.2.
-  const NetworkValues values{
-      .mass = {1.0}, .element = {4.0}, .excitation = {}, .bends = {{{0.3, -3.0, 0.0}, {0.2, 5.0, 0.0}}}};
+  const NetworkValues values{.mass = {1.0}, .element = {4.0}, .bends = {{{0.3, -3.0, 0.0}, {0.2, 5.0, 0.0}}}};
   const FreeDecay decay = free_decay(network, values, {{1.0}, {}}, {.duration = 50.0});
   CHECK(decay.energy.balance < kBalanced);
   const double energy = 0.5 * 4.0 - 0.5 * 3.0 * 0.7 * 0.7;
@@ -189,7 +182,7 @@ TEST_CASE("A mass that sticks harder than it slides is let go by its static limi
   network.elements = {{"spring", ElementType::spring, ground, first},
                       {"friction", ElementType::coulomb, ground, first}};
   network.elements[1].has_static_force = true;
-  const NetworkValues values{.mass = {1.0}, .element = {k, F}, .excitation = {}, .second = {0.0, F_s}};
+  const NetworkValues values{.mass = {1.0}, .element = {k, F}, .second = {0.0, F_s}};
   CHECK(free_decay(network, values, {{0.99 * F_s / k}, {}}, {}).stop_time == 0.0);
   // |x| falls by 2 F/k each half swing, until it is at most F_s/k.
   double x = 1.01 * F_s / k;

@@ -143,7 +143,6 @@ TEST_CASE("Derivatives of the peaks of 40 random networks under records are thos
 // One mass of 1 kg on a spring k to ground under a force of 1 N from t = 0 on: x = (1 - cos w t)/k.
 TEST_CASE("Displacements of an oscillator under a constant force have the derivatives of the closed form") {
   const Network network{.masses = {"m"},
-                        .prescribed = {},
                         .elements = {{"k", ElementType::spring, {}, {NodeKind::mass, 0}}},
                         .excitations = {{ExcitationKind::recorded_force, 0, 0}}};
   const double k = 2.3, w = std::sqrt(k);
@@ -166,7 +165,6 @@ TEST_CASE("Displacements of an oscillator under a constant force have the deriva
 
 TEST_CASE("A harmonic beside the records, and a direction that changes the frequency, are refused") {
   Network network{.masses = {"m"},
-                  .prescribed = {},
                   .elements = {{"k", ElementType::spring, {}, {NodeKind::mass, 0}}},
                   .excitations = {{ExcitationKind::recorded_force, 0, 0}}};
   NetworkValues values{.omega = 1.0, .mass = {1.0}, .element = {1.0}, .excitation = {{1.0, 0.0}}};

@@ -12,11 +12,9 @@ using mechanics::ElementType, mechanics::Network, mechanics::NetworkValues, mech
 FreeDecay decay(double mass, double damping) {
   const Node ground{}, body{NodeKind::mass, 0};
   const Network network{.masses = {"body"},
-                        .prescribed = {},
                         .elements = {{"spring", ElementType::spring, ground, body},
-                                     {"damper", ElementType::damper, ground, body}},
-                        .excitations = {}};
-  const NetworkValues values{.omega = 1.0, .mass = {mass}, .element = {1.0, damping}, .excitation = {}};
+                                     {"damper", ElementType::damper, ground, body}}};
+  const NetworkValues values{.omega = 1.0, .mass = {mass}, .element = {1.0, damping}};
   return free_decay(network, values, {{1.0}, {0.0}}, {});
 }
 

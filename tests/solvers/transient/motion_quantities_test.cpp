@@ -10,12 +10,7 @@ namespace frahm::transient::motion_quantities_test {
 namespace {
 
 using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
-using mechanics::ElementType;
-using mechanics::ExcitationKind;
-using mechanics::Network;
-using mechanics::NetworkValues;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 using enum MotionMeasure;
 
 constexpr double kExact = 1e-11;   // relative, of closed forms over some periods

@@ -15,9 +15,7 @@
 namespace frahm::identification::motion_sensitivity_test {
 namespace {
 
-using mechanics::ElementType;
-using mechanics::Network;
-using mechanics::NetworkValues;
+using namespace mechanics;
 
 // Of exact derivatives and differences, relative to the largest of the trace.
 constexpr double kDifference = 1e-6;

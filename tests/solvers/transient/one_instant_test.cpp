@@ -140,7 +140,7 @@ Case one_mass(const std::vector<Further>& further) {
   of.network.masses = {"mass"};
   of.network.elements = {{"spring", ElementType::spring, ground, first},
                          {"damper", ElementType::damper, ground, first}};
-  of.model.values = {.omega = 1.0, .mass = {1.0}, .element = {1.0, 0.05}, .excitation = {}};
+  of.model.values = {.omega = 1.0, .mass = {1.0}, .element = {1.0, 0.05}};
   of.model.values.second = {0.0, 0.0};
   of.model.values.bends = {{}, {}};
   for (const Further& each : further) {
@@ -321,7 +321,6 @@ Case turns_and_hits(double F, double F_s, bool between) {
   of.model.values = {.omega = 1.0,
                      .mass = {1.0, 1.0},
                      .element = {1.0, 1.0, F, 2.0},
-                     .excitation = {},
                      .second = {0.0, 0.0, F_s, 0.05},
                      .bends = {{}, {}, {}, {{between ? 1.0 - 2.0 * F : 0.0, 2.0, 0.05}}}};
   of.model.initial = {{1.0, 0.0}, {0.0, -1.0}};

@@ -24,8 +24,7 @@ namespace {
 
 using namespace frahm::studies;
 using Catch::Matchers::Contains;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace small_studies;
 namespace engine = frahm::engine;
 namespace results = frahm::results;
 

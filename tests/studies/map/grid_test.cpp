@@ -12,8 +12,7 @@ namespace grid_test {
 namespace {
 
 using namespace frahm::studies;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace small_studies;
 
 Study study_of(const std::string& axes) {
   return parse_study(oscillator() + axes, "small.toml");

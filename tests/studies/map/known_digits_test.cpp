@@ -12,8 +12,7 @@ namespace known_digits_test {
 namespace {
 
 using namespace frahm::studies;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace small_studies;
 
 MapPlan plan_of(const std::string& output) {
   return plan_map(parse_study(oscillator() + axis("r", 0.8, 1.2, 5) + output, "small.toml"), {});

@@ -12,9 +12,7 @@ namespace map_kernel_test {
 namespace {
 
 using namespace frahm::studies;
-using small_studies::axis;
-using small_studies::axis_of;
-using small_studies::oscillator;
+using namespace small_studies;
 
 constexpr double closed_form_tolerance = 1e-9;  // of amplitudes of order 1, where the solver stops at 1e-12
 

@@ -59,11 +59,8 @@ double acceleration_by_forces(double force, double x, double v) {
 }
 
 TEST_CASE("measured accelerations obey the equation of motion, in a decay up to rest") {
-  const Measurements data = measure(decay(), {},
-                                    {.rate = 1000.0,
-                                     .duration = std::nullopt,
-                                     .noise = {},
-                                     .columns = {"cart_displacement", "cart_velocity", "cart_acceleration"}});
+  const Measurements data = measure(
+      decay(), {}, {.rate = 1000.0, .columns = {"cart_displacement", "cart_velocity", "cart_acceleration"}});
   REQUIRE(data.time.size() == 1501);
   CHECK(data.time.back() == 1.5);
   const auto &x = data.columns[0].values, &v = data.columns[1].values, &a = data.columns[2].values;
@@ -84,7 +81,6 @@ TEST_CASE("a periodic response is measured at any rate, with its forces") {
   const Measurements data = measure(study, at,
                                     {.rate = 317.0,
                                      .duration = 3.0,
-                                     .noise = {},
                                      .columns = {"cart_displacement", "cart_velocity", "cart_acceleration",
                                                  "spring_force", "guide_force"}});
   REQUIRE(data.time.size() == 952);
@@ -100,9 +96,7 @@ TEST_CASE("a periodic response is measured at any rate, with its forces") {
 
 TEST_CASE("noise has the size that was asked for, is the same for a seed and another for another") {
   const auto with = [](SensorNoise noise) {
-    return measure(decay(), {}, {.rate = 2000.0, .duration = std::nullopt, .noise = noise, .columns = {}})
-        .columns[0]
-        .values;
+    return measure(decay(), {}, {.rate = 2000.0, .noise = noise, .columns = {}}).columns[0].values;
   };
   const std::vector<double> clean = with({}), noisy = with({.absolute = 1e-3, .seed = 5});
   CHECK(noisy == with({.absolute = 1e-3, .seed = 5}));
@@ -128,12 +122,11 @@ TEST_CASE("noise has the size that was asked for, is the same for a seed and ano
 }
 
 TEST_CASE("what cannot be measured is refused with what can") {
-  const MeasurementOptions of_nothing{
-      .rate = 100.0, .duration = std::nullopt, .noise = {}, .columns = {"cart_acceleratio"}};
+  const MeasurementOptions of_nothing{.rate = 100.0, .columns = {"cart_acceleratio"}};
   CHECK_THROWS_WITH(
       measure(decay(), {}, of_nothing),
       Catch::Contains("nothing is called \"cart_acceleratio\"; did you mean \"cart_acceleration\"?"));
-  CHECK_THROWS_WITH(measure(decay(), {}, {.rate = 1e9, .duration = std::nullopt, .noise = {}, .columns = {}}),
+  CHECK_THROWS_WITH(measure(decay(), {}, {.rate = 1e9, .columns = {}}),
                     Catch::Contains("must be from 2 to ten million"));
 }
 

@@ -16,8 +16,7 @@ namespace explain_command_test {
 namespace {
 
 using namespace frahm::studies;
-using frahm::mechanics::ElementKind;
-using frahm::mechanics::ValueKey;
+using namespace frahm::mechanics;
 
 std::string explained(const std::string& word) {
   std::ostringstream out;

@@ -12,8 +12,7 @@ namespace fingerprint_test {
 namespace {
 
 using namespace frahm::studies;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace small_studies;
 
 const std::string axes = axis("f", 0, 1, 5) + axis("r", 0.1, 2, 11);
 const std::string base = oscillator() + axes;

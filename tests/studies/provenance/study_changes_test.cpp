@@ -20,8 +20,7 @@ namespace study_changes_test {
 namespace {
 
 using namespace frahm::studies;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace small_studies;
 using Lines = std::vector<std::string>;
 
 const std::string map = oscillator() + axis("f", 0, 1, 5) + axis("r", 0.1, 2, 11);

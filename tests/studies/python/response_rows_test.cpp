@@ -11,8 +11,7 @@ namespace {
 
 using namespace frahm;
 using namespace frahm::studies;
-using small_studies::axis;
-using small_studies::oscillator;
+using namespace small_studies;
 
 Study swept() {
   return parse_study(oscillator() + axis("r", 0.5, 1.5, 11), "small.toml");

@@ -16,10 +16,7 @@ namespace study_test {
 namespace {
 
 using namespace frahm::studies;
-using frahm::mechanics::ElementType;
-using frahm::mechanics::ExcitationKind;
-using frahm::mechanics::Node;
-using frahm::mechanics::NodeKind;
+using namespace frahm::mechanics;
 
 constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
 const std::string studies = FRAHM_SOURCE_DIR "/studies/";
@@ -290,7 +287,8 @@ TEST_CASE("more friction elements than a flag can name have no borders") {
            "[[axis]]\nparameter = \"r\"\nvalues = [0.5, 2]\n[output]\nborders = true\n";
   };
   CHECK(complaint_about(study(127)) == "none");
-  CHECK_THAT(complaint_about(study(128)), Catch::Contains("borders: there are 128 coulomb elements; at most 127"));
+  CHECK_THAT(complaint_about(study(128)),
+             Catch::Contains("borders: there are 128 coulomb elements; at most 127"));
 }
 
 }  // namespace

@@ -24,7 +24,6 @@ mechanics::Network network() {
   using mechanics::ElementType, mechanics::NodeKind;
   const mechanics::Node ground, main{NodeKind::mass, 0}, absorber{NodeKind::mass, 1};
   return {.masses = {"main", "absorber"},
-          .prescribed = {},
           .elements = {{"base", ElementType::spring, ground, main},
                        {"stiffness", ElementType::spring, main, absorber},
                        {"damping", ElementType::damper, main, absorber}},

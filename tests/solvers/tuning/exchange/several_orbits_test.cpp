@@ -8,6 +8,7 @@
 #include "solvers/tuning/exchange/band_scan.hpp"
 #include "solvers/tuning/optimum.hpp"
 #include "solvers/tuning/stages/held_without_derivative.hpp"
+#include "tests/known_answers/single_mass.hpp"
 
 namespace frahm::tuning::several_orbits_test {
 namespace {
@@ -25,15 +26,7 @@ const std::function<bool()> kGoOn = [] { return false; };
 // at: damping, r.
 Task mass_between_stops() {
   Task task;
-  const Node ground{}, mass{NodeKind::mass, 0};
-  Element stops{"stops", ElementType::gap, ground, mass};
-  stops.bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
-  task.network = {.masses = {"x"},
-                  .prescribed = {},
-                  .elements = {{"spring", ElementType::spring, ground, mass},
-                               {"damper", ElementType::damper, ground, mass},
-                               stops},
-                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  task.network = periodic::driven_mass({periodic::elastic_stops({1.0, -1.0})});
   task.network_at = [](std::size_t, std::span<const double> at, NetworkValues& values,
                        std::vector<NetworkValues>* derivatives) {
     values = {.omega = at[1],
@@ -122,7 +115,6 @@ Task restless_absorber() {
   Element stops{"stops", ElementType::gap, main, absorber};
   stops.bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
   task.network = {.masses = {"machine", "absorber"},
-                  .prescribed = {},
                   .elements = {{"mount", ElementType::spring, ground, main},
                                {"mount_damper", ElementType::damper, ground, main},
                                {"spring", ElementType::spring, main, absorber},

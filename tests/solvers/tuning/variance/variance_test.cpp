@@ -19,13 +19,7 @@ namespace {
 using Catch::Matchers::Contains;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
-using mechanics::Element;
-using mechanics::ElementType;
-using mechanics::MechanicsError;
-using mechanics::Network;
-using mechanics::NetworkValues;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 using std::numbers::pi;
 
 constexpr double kExact = 1e-12;       // relative, of a mean square
@@ -55,10 +49,8 @@ TEST_CASE("one mass under white noise has the variance pi S0 / (c k), or pi S0 m
   const double m = 3.0, c = 0.7, k = 110.0, intensity = 0.25;
   const NetworkValues values = numbers({m}, {k, c});
   const Network fixed{.masses = {"x"},
-                      .prescribed = {},
                       .elements = {{"spring", ElementType::spring, ground, main_mass},
-                                   {"damper", ElementType::damper, ground, main_mass}},
-                      .excitations = {}};
+                                   {"damper", ElementType::damper, ground, main_mass}}};
   const Variance of_force(fixed, {NoiseKind::force_on, 0, intensity}, {});
   CHECK_THAT(of_force.mean_square(values), WithinRel(pi * intensity / (c * k), kExact));
 
@@ -73,8 +65,7 @@ TEST_CASE("one mass with modal damping has the variance of one with its damper, 
   const double m = 3.0, k = 110.0, zeta = 0.04, intensity = 0.25, c = 2.0 * zeta * std::sqrt(k * m);
   Network network{.masses = {"x"},
                   .prescribed = {"base"},
-                  .elements = {{"spring", ElementType::spring, base, main_mass}},
-                  .excitations = {}};
+                  .elements = {{"spring", ElementType::spring, base, main_mass}}};
   network.damping = mechanics::DampingModel::modal;
   NetworkValues values = numbers({m}, {k}, {0.0});
   values.damping = {zeta};
@@ -99,8 +90,7 @@ Network tuned_mass_damper(const Node& support) {
           .elements = {{"suspension", ElementType::spring, support, main_mass},
                        {"spring", ElementType::spring, main_mass, absorber},
                        {"damper", ElementType::damper, main_mass, absorber},
-                       {"inerter", ElementType::inerter, support, absorber}},
-          .excitations = {}};
+                       {"inerter", ElementType::inerter, support, absorber}}};
 }
 
 // With M = K = 1, mass ratio mu and inertance ratio beta: f = sqrt(k/(m + b)) / sqrt(K/M), zeta = c/(2 (m +
@@ -234,8 +224,7 @@ Network every_element() {
                        {"b2", ElementType::inerter, ground, absorber},
                        {"b3", ElementType::inerter, third, base},
                        {"m1", ElementType::maxwell, main_mass, absorber},
-                       {"m2", ElementType::maxwell, third, base}},
-          .excitations = {}};
+                       {"m2", ElementType::maxwell, third, base}}};
 }
 
 NetworkValues every_value() {

@@ -14,10 +14,7 @@ namespace direction_test {
 namespace {
 
 using namespace frahm::studies;
-using frahm::mechanics::Direction;
-using frahm::mechanics::Element;
-using frahm::mechanics::Node;
-using frahm::mechanics::NodeKind;
+using namespace frahm::mechanics;
 
 const Node ground{}, main_mass{NodeKind::mass, 0}, wheel{NodeKind::mass, 1};
 

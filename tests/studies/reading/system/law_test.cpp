@@ -13,8 +13,7 @@ namespace {
 
 using namespace frahm;
 using Catch::Matchers::WithinRel;
-using mechanics::ElementType;
-using mechanics::FrictionLaw;
+using namespace mechanics;
 using studies::Study;
 
 constexpr double kSame = 1e-14;

@@ -19,9 +19,7 @@ namespace matrices_study_test {
 namespace {
 
 using namespace frahm::studies;
-using frahm::mechanics::Assembly;
-using frahm::mechanics::LinearSystem;
-using frahm::mechanics::NetworkValues;
+using namespace frahm::mechanics;
 using frahm::periodic::Path;
 using frahm::periodic::PeriodicResponse;
 using frahm::periodic::Quantity;

@@ -22,9 +22,7 @@ namespace {
 
 using namespace frahm;
 using namespace frahm::studies;
-using mechanics::Direction;
-using mechanics::Node;
-using mechanics::NodeKind;
+using namespace mechanics;
 
 std::string signal(const std::string& name, const std::string& along) {
   return "[[output.signal]]\nname = \"" + name + "\"\nalong = { " + along + " }\n";
