@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "studies/reading/further_mistakes.hpp"
 #include "studies/reading/keys/repetition.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/keys/toml_section.hpp"
@@ -190,6 +191,59 @@ void check_whole(Study& study) {
   if (study.identify()) check_identification(study);
 }
 
+// is_whole: nothing is left out of it (further_mistakes.hpp).
+Study read_document(const StudySource& source, const TomlValue& root, const std::filesystem::path& folder,
+                    DataFiles data, bool is_whole) {
+  Study study;
+  study.source = source;
+  check_top_keys(study.source, root);
+  read_heading(root, study);
+  check_sections_of_kind(study, root);
+  require_sections_of_kind(study, root);
+
+  const UnitSystem units;
+  std::vector<WrittenExpression> written;
+  const StudyContext context{study.source, units, study.dimensionless, written, is_whole};
+  study.parameters = read_parameters(context, root, folder);
+  if (study.kind() != StudyKind::identify || has_system(root)) {
+    auto [network, values] = read_network(context, root, folder, study.parameters, study.kind());
+    study.network = std::move(network);
+    study.values = std::move(values);
+    refuse_mixed_laws(study);
+  }
+  if (study.kind() == StudyKind::sweep) {
+    read_comparison(context, root, study);
+  } else if (study.kind() != StudyKind::tune) {
+    read_motion(context, root, study);
+  }
+  if (study.transient())
+    study.transient()->records = read_driving_records(context, root, folder, data, study.network,
+                                                      read_record_axis(context, root), "an [[axis]]");
+  if (study.kind() == StudyKind::identify) read_identification(context, root, study);
+  convert_parameters(context, study.parameters);
+  if (study.kind() == StudyKind::sweep) {
+    read_axes(context, root, folder, data, study);
+    read_coordinates(context, root, study);
+    find_frequency_dimension(study);
+    read_output(context, root, study);
+    study.sweep()->orbits = read_orbits_wanted(context, root, study);
+    check_compared_show(context, root, study);
+    read_report(context, root, study);
+  } else if (study.kind() == StudyKind::transient) {
+    read_map_of_motions(context, root, folder, data, study);
+  } else if (study.kind() == StudyKind::tune) {
+    if (mechanics::has_records(study.network))
+      read_tuning_over_records(context, root, folder, data, study);
+    else
+      read_tuning(context, root, study);
+  } else if (study.kind() == StudyKind::identify) {
+    read_measurements(context, root, folder, data, study);
+  }
+  check_dimensions(context, study.parameters);
+  if (is_whole) check_whole(study);
+  return study;
+}
+
 }  // namespace
 
 Study read_study(const std::filesystem::path& path) {
@@ -203,56 +257,16 @@ Study read_study(const std::filesystem::path& path) {
 }
 
 Study parse_study(std::string text, const std::filesystem::path& name, DataFiles data) {
-  Study study;
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
-  study.source = {name.string(), std::move(text)};
-  const TomlValue root = with_repetitions(study.source, read_toml(study.source));
-  check_top_keys(study.source, root);
-  read_heading(root, study);
-  check_sections_of_kind(study, root);
-  require_sections_of_kind(study, root);
-
-  const UnitSystem units;
-  std::vector<WrittenExpression> written;
-  const StudyContext context{study.source, units, study.dimensionless, written};
-  study.parameters = read_parameters(context, root, name.parent_path());
-  if (study.kind() != StudyKind::identify || has_system(root)) {
-    auto [network, values] = read_network(context, root, name.parent_path(), study.parameters, study.kind());
-    study.network = std::move(network);
-    study.values = std::move(values);
-    refuse_mixed_laws(study);
+  const StudySource source{name.string(), std::move(text)};
+  TomlValue root = with_repetitions(source, read_toml(source));
+  try {
+    return read_document(source, root, name.parent_path(), data, true);
+  } catch (const StudyError& first) {
+    throw with_further_mistakes(first, std::move(root), [&](const TomlValue& rest) {
+      read_document(source, rest, name.parent_path(), DataFiles::leave, false);
+    });
   }
-  if (study.kind() == StudyKind::sweep) {
-    read_comparison(context, root, study);
-  } else if (study.kind() != StudyKind::tune) {
-    read_motion(context, root, study);
-  }
-  if (study.transient())
-    study.transient()->records = read_driving_records(context, root, name.parent_path(), data, study.network,
-                                                      read_record_axis(context, root), "an [[axis]]");
-  if (study.kind() == StudyKind::identify) read_identification(context, root, study);
-  convert_parameters(context, study.parameters);
-  if (study.kind() == StudyKind::sweep) {
-    read_axes(context, root, name.parent_path(), data, study);
-    read_coordinates(context, root, study);
-    find_frequency_dimension(study);
-    read_output(context, root, study);
-    study.sweep()->orbits = read_orbits_wanted(context, root, study);
-    check_compared_show(context, root, study);
-    read_report(context, root, study);
-  } else if (study.kind() == StudyKind::transient) {
-    read_map_of_motions(context, root, name.parent_path(), data, study);
-  } else if (study.kind() == StudyKind::tune) {
-    if (mechanics::has_records(study.network))
-      read_tuning_over_records(context, root, name.parent_path(), data, study);
-    else
-      read_tuning(context, root, study);
-  } else if (study.kind() == StudyKind::identify) {
-    read_measurements(context, root, name.parent_path(), data, study);
-  }
-  check_dimensions(context, study.parameters);
-  check_whole(study);
-  return study;
 }
 
 Study with_parameters(Study study, std::span<const Assignment> assignments) {

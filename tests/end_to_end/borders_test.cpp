@@ -14,8 +14,8 @@ namespace borders_test {
 namespace {
 
 using frahm::periodic::critical_friction;
-using namespace runs;
-using namespace small_studies;
+using runs::Folder, runs::Map, runs::read_map;
+using small_studies::axis, small_studies::axis_of, small_studies::oscillator;
 
 constexpr double place_tolerance = 1e-7;  // of an edge: half as much is the search's, the rest is rounding
 constexpr double non_stop = 2, stuck = 5;

@@ -9,7 +9,7 @@
 namespace command_words_test {
 namespace {
 
-using namespace runs;
+using runs::Folder, runs::frahm, runs::Names, runs::run, runs::small;
 
 TEST_CASE("wrong usage ends with code 2 and says what is wrong") {
   CHECK(frahm({}).code == 2);

@@ -16,7 +16,7 @@
 namespace explained_results_test {
 namespace {
 
-using namespace runs;
+using runs::Folder, runs::frahm;
 using Names = std::set<std::string>;
 
 // Runs the study and checks the names in its result.  own: names that the study gives: of parameters.

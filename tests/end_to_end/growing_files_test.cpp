@@ -14,9 +14,10 @@
 namespace growing_files_test {
 namespace {
 
-using namespace grown_maps;
-using namespace runs;
-using namespace small_studies;
+using grown_maps::Points, grown_maps::points_of, grown_maps::provenance, grown_maps::run,
+    grown_maps::same_point, grown_maps::variable_size;
+using runs::Folder, runs::frahm, runs::Map, runs::read_map, runs::reduced;
+using small_studies::axis, small_studies::axis_of, small_studies::oscillator;
 using Names = std::vector<std::string>;
 
 const std::string small = oscillator() + axis("f", 0, 1, 5) + axis("r", 0.2, 2, 31);

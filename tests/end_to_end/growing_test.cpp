@@ -10,9 +10,10 @@
 namespace growing_test {
 namespace {
 
-using namespace grown_maps;
-using namespace runs;
-using namespace small_studies;
+using grown_maps::Points, grown_maps::points_of, grown_maps::provenance, grown_maps::run,
+    grown_maps::same_point, grown_maps::variable_size;
+using runs::Folder, runs::frahm, runs::Map, runs::read_map, runs::reduced, runs::replaced;
+using small_studies::axis, small_studies::axis_of, small_studies::oscillator;
 using Names = std::vector<std::string>;
 
 // Where the error bound does not hold, of stuck masses and at the resonance of an undamped one: both

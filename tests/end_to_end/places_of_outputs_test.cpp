@@ -10,7 +10,7 @@
 namespace places_of_outputs_test {
 namespace {
 
-using namespace runs;
+using runs::Folder, runs::frahm, runs::Names, runs::provenance, runs::run, runs::small, runs::text_of;
 
 TEST_CASE("an output that cannot be written ends with code 6 and leaves nothing") {
   const Folder folder;

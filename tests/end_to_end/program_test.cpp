@@ -11,8 +11,8 @@
 namespace program_test {
 namespace {
 
-using namespace runs;
-using namespace small_studies;
+using runs::Folder, runs::frahm, runs::Names, runs::provenance, runs::run, runs::small, runs::text_of;
+using small_studies::axis, small_studies::oscillator;
 
 TEST_CASE("check tells what the histories of listed orbits take") {
   // 512 instants of time, two states and an acceleration, three forces, slip and its rate: 9 numbers, 3

@@ -13,8 +13,8 @@
 namespace shards_test {
 namespace {
 
-using namespace runs;
-using namespace small_studies;
+using runs::Folder, runs::frahm;
+using small_studies::axis, small_studies::oscillator;
 using Names = std::vector<std::string>;
 
 const std::string of_many_tiles = oscillator() + axis("f", 0, 1, 30) + axis("r", 0.2, 2, 101);

@@ -12,7 +12,7 @@
 namespace tuning_test {
 namespace {
 
-using namespace runs;
+using runs::Folder, runs::frahm, runs::Outcome;
 using namespace small_tunings;
 
 constexpr double mu = 0.05;  // mass ratio of small_tunings

@@ -41,7 +41,7 @@ NetworkValues between_stops(double r, double c = 0.0, double clearance = 1.0, do
 }
 
 Network mass_with_static_friction() {
-  return driven_mass({static_friction()});
+  return driven_mass({static_friction("guide")});
 }
 
 NetworkValues with_static_friction(double r, double zeta, double F, double F_s) {

@@ -22,8 +22,8 @@ inline mechanics::Element elastic_stops(const std::vector<double>& sides) {
 }
 
 // Coulomb friction with a static force.
-inline mechanics::Element static_friction() {
-  mechanics::Element friction = on_the_mass("friction", mechanics::ElementType::coulomb);
+inline mechanics::Element static_friction(std::string name = "friction") {
+  mechanics::Element friction = on_the_mass(std::move(name), mechanics::ElementType::coulomb);
   friction.has_static_force = true;
   return friction;
 }

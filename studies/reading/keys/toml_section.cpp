@@ -68,7 +68,7 @@ const TomlValue* TomlSection::find(std::string_view key) const {
 
 const TomlValue& TomlSection::require(std::string_view key) const {
   const TomlValue* value = find(key);
-  if (!value) fail_here(rules::missing_key, "the key \"{}\" is missing", key);
+  if (!value) fail_here(rules::missing_key_of_table, "the key \"{}\" is missing", key);
   return *value;
 }
 
@@ -133,7 +133,7 @@ void TomlSection::require_keys(std::string_view form) const {
     if (key.form == KeyForm::tables)
       fail_here(rules::missing_section, "needs {} ({})", written_section(section_ + "." + key.key),
                 key.meaning);
-    fail_here(rules::missing_key, "the key \"{}\" is missing ({})", key.key, key.meaning);
+    fail_here(rules::missing_key_of_table, "the key \"{}\" is missing ({})", key.key, key.meaning);
   }
 }
 

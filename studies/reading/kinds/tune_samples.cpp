@@ -43,7 +43,7 @@ void check_not_tuned(const TuneReading& reading, const ParameterAxis& axis) {
 }  // namespace
 
 void read_samples(TuneReading& reading, const std::filesystem::path& folder, DataFiles data) {
-  if (!find_entry(reading.root, "axis")) return;
+  if (read_tables(reading.context.source, reading.root, "axis").empty()) return;
   const TomlValue& table = axis_of_samples(reading);
   // They are read as those of a map, whose axes they are.
   Study& study = reading.study;

@@ -25,13 +25,14 @@ struct WrittenExpression {
   std::optional<WantedDimension> wanted;  // nothing: any dimension will do
 };
 
-// Shared by all parts: the text, the unit system, whether units are allowed at all, and the expressions read
-// so far.
+// Shared by all parts: the text, the unit system, whether units are allowed at all, the expressions read so
+// far, and whether mistakes were left out of the study: then nothing is said of the system as a whole.
 struct StudyContext {
   const StudySource& source;
   const UnitSystem& units;
   bool dimensionless = false;
   std::vector<WrittenExpression>& written;
+  bool is_whole = true;
 };
 
 }  // namespace frahm::studies

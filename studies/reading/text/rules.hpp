@@ -7,9 +7,17 @@ namespace frahm::studies {
 // A rule that a study, its data or a command line can break. Its key is stable: messages are reworded, keys
 // are not. Tests of refusals name the key, the position and the offending name.
 struct Rule {
-  std::string_view key;
+  // What shows that it is broken.
+  enum class By {
+    itself,  // the key or value alone
+    table,   // and the table it is in, or the names of the study
+    study,   // several parts of the study together
+  };
 
-  friend bool operator==(const Rule&, const Rule&) = default;
+  std::string_view key;
+  By by = By::study;
+
+  friend bool operator==(const Rule& a, const Rule& b) { return a.key == b.key; }
 };
 
 namespace rules {
@@ -20,40 +28,44 @@ inline constexpr Rule not_toml{"not_toml"};
 inline constexpr Rule too_large{"too_large"};  // the text, its nesting, a grid, a count of contacts
 
 // Sections and keys.
-inline constexpr Rule unknown_section{"unknown_section"};
+inline constexpr Rule unknown_section{"unknown_section", Rule::By::itself};
 inline constexpr Rule missing_section{"missing_section"};
 inline constexpr Rule other_kind{"other_kind"};  // belongs to another kind of study
-inline constexpr Rule unknown_key{"unknown_key"};
+inline constexpr Rule unknown_key{"unknown_key", Rule::By::itself};
 inline constexpr Rule missing_key{"missing_key"};
-inline constexpr Rule one_of_two_keys{"one_of_two_keys"};  // one is needed, or they exclude each other
+inline constexpr Rule missing_key_of_table{"missing_key", Rule::By::table};  // whatever else the study says
+inline constexpr Rule one_of_two_keys{"one_of_two_keys",
+                                      Rule::By::table};    // one is needed, or they exclude each other
 inline constexpr Rule key_without_use{"key_without_use"};  // without effect with the other choices
 
 // Values.
-inline constexpr Rule wrong_type{"wrong_type"};
-inline constexpr Rule empty{"empty"};
-inline constexpr Rule not_a_name{"not_a_name"};
-inline constexpr Rule not_a_choice{"not_a_choice"};  // not one of the words that a key allows
-inline constexpr Rule not_finite{"not_finite"};
-inline constexpr Rule out_of_range{"out_of_range"};
-inline constexpr Rule wrong_order{"wrong_order"};    // bounds, bands, knots and rows that do not rise
+inline constexpr Rule wrong_type{"wrong_type", Rule::By::itself};
+inline constexpr Rule empty{"empty", Rule::By::itself};
+inline constexpr Rule not_a_name{"not_a_name", Rule::By::itself};
+inline constexpr Rule not_a_choice{"not_a_choice",
+                                   Rule::By::itself};  // not one of the words that a key allows
+inline constexpr Rule not_finite{"not_finite", Rule::By::itself};
+inline constexpr Rule out_of_range{"out_of_range", Rule::By::table};
+inline constexpr Rule wrong_order{"wrong_order",
+                                  Rule::By::table};  // bounds, bands, knots and rows that do not rise
 inline constexpr Rule wrong_length{"wrong_length"};  // of lists that belong together
 
 // Names.
-inline constexpr Rule unknown_name{"unknown_name"};
-inline constexpr Rule name_taken{"name_taken"};
-inline constexpr Rule given_twice{"given_twice"};
-inline constexpr Rule computed_parameter{"computed_parameter"};  // where a number is needed
-inline constexpr Rule wrong_dependence{"wrong_dependence"};      // of a value on a parameter, or none
+inline constexpr Rule unknown_name{"unknown_name", Rule::By::table};
+inline constexpr Rule name_taken{"name_taken", Rule::By::table};
+inline constexpr Rule given_twice{"given_twice", Rule::By::table};
+inline constexpr Rule computed_parameter{"computed_parameter", Rule::By::table};  // where a number is needed
+inline constexpr Rule wrong_dependence{"wrong_dependence"};  // of a value on a parameter, or none
 
 // Units and expressions.
-inline constexpr Rule unknown_unit{"unknown_unit"};
-inline constexpr Rule wrong_dimension{"wrong_dimension"};
-inline constexpr Rule missing_unit{"missing_unit"};
-inline constexpr Rule ambiguous_unit{"ambiguous_unit"};  // radians or cycles
-inline constexpr Rule two_units{"two_units"};            // of one thing
-inline constexpr Rule unit_in_dimensionless{"unit_in_dimensionless"};
-inline constexpr Rule wrong_expression{"wrong_expression"};
-inline constexpr Rule circular_definition{"circular_definition"};
+inline constexpr Rule unknown_unit{"unknown_unit", Rule::By::itself};
+inline constexpr Rule wrong_dimension{"wrong_dimension", Rule::By::table};
+inline constexpr Rule missing_unit{"missing_unit", Rule::By::table};
+inline constexpr Rule ambiguous_unit{"ambiguous_unit", Rule::By::table};  // radians or cycles
+inline constexpr Rule two_units{"two_units", Rule::By::table};            // of one thing
+inline constexpr Rule unit_in_dimensionless{"unit_in_dimensionless", Rule::By::table};
+inline constexpr Rule wrong_expression{"wrong_expression", Rule::By::itself};
+inline constexpr Rule circular_definition{"circular_definition", Rule::By::table};
 
 // The system and the requested results.
 inline constexpr Rule floating_mass{"floating_mass"};

@@ -17,6 +17,7 @@ using namespace one_mass;
 
 constexpr double kPrinted = 1e-7;  // of orbits found in two ways
 constexpr double kExact = 1e-9;    // of closed forms
+const Node ground{}, mass{NodeKind::mass, 0};
 const std::vector<Quantity> asked{{Measure::peak, 0}, {Measure::energy_balance, 0}};
 
 // A mass on a spring and two sliders with springs, driven towards the resonance of the spring alone. Both

@@ -24,7 +24,7 @@ namespace {
 
 using namespace frahm::studies;
 using Catch::Matchers::Contains;
-using namespace small_studies;
+using small_studies::axis, small_studies::oscillator;
 namespace engine = frahm::engine;
 namespace results = frahm::results;
 

@@ -12,7 +12,7 @@ namespace grid_test {
 namespace {
 
 using namespace frahm::studies;
-using namespace small_studies;
+using small_studies::axis, small_studies::oscillator;
 
 Study study_of(const std::string& axes) {
   return parse_study(oscillator() + axes, "small.toml");

@@ -12,7 +12,7 @@ namespace known_digits_test {
 namespace {
 
 using namespace frahm::studies;
-using namespace small_studies;
+using small_studies::axis, small_studies::oscillator;
 
 MapPlan plan_of(const std::string& output) {
   return plan_map(parse_study(oscillator() + axis("r", 0.8, 1.2, 5) + output, "small.toml"), {});

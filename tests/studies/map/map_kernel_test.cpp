@@ -12,7 +12,7 @@ namespace map_kernel_test {
 namespace {
 
 using namespace frahm::studies;
-using namespace small_studies;
+using small_studies::axis, small_studies::axis_of, small_studies::oscillator;
 
 constexpr double closed_form_tolerance = 1e-9;  // of amplitudes of order 1, where the solver stops at 1e-12
 

@@ -12,7 +12,7 @@ namespace fingerprint_test {
 namespace {
 
 using namespace frahm::studies;
-using namespace small_studies;
+using small_studies::axis, small_studies::oscillator;
 
 const std::string axes = axis("f", 0, 1, 5) + axis("r", 0.1, 2, 11);
 const std::string base = oscillator() + axes;

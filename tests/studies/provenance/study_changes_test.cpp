@@ -20,7 +20,7 @@ namespace study_changes_test {
 namespace {
 
 using namespace frahm::studies;
-using namespace small_studies;
+using small_studies::axis, small_studies::oscillator;
 using Lines = std::vector<std::string>;
 
 const std::string map = oscillator() + axis("f", 0, 1, 5) + axis("r", 0.1, 2, 11);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace frahm;
 using namespace frahm::studies;
-using namespace small_studies;
+using small_studies::axis, small_studies::oscillator;
 
 Study swept() {
   return parse_study(oscillator() + axis("r", 0.5, 1.5, 11), "small.toml");

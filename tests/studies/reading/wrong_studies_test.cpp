@@ -153,6 +153,7 @@ TEST_CASE("every wrong study is refused at its place, by the rule it breaks, wit
     const std::size_t space = head[1].find(' ');
     CHECK(refusal.rule == head[1].substr(space + 1));
     CHECK_THAT(refusal.message, Catch::StartsWith(head[1].substr(0, space) + ": "));
+    CHECK_THAT(refusal.message, !Catch::EndsWith(" mistakes"));  // nothing that only follows is told
     std::size_t at = 0;
     for (std::size_t i = 2; i < head.size(); ++i) {
       INFO("named: " << head[i]);
