@@ -26,10 +26,6 @@ constexpr double kBalance = 1e-10;  // of the energy
 
 const Node ground{}, mass{NodeKind::mass, 0};
 
-Network mass_between_stops() {
-  return driven_mass({elastic_stops({1.0, -1.0})});
-}
-
 // zeta = 0.05, stops of stiffness 4 at a clearance of 1.
 NetworkValues between_stops(double r, double c = 0.0, double clearance = 1.0, double k = 4.0) {
   return {.omega = r,

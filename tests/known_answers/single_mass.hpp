@@ -38,6 +38,10 @@ inline mechanics::Network driven_mass(const std::vector<mechanics::Element>& mor
   return network;
 }
 
+inline mechanics::Network mass_between_stops() {
+  return driven_mass({elastic_stops({1.0, -1.0})});
+}
+
 // x'' + 2 zeta x' + x + f Sgn(x') = cos(r tau)
 inline mechanics::Network single_mass() {
   return driven_mass({on_the_mass("friction", mechanics::ElementType::coulomb)});

@@ -12,9 +12,6 @@ namespace frahm::periodic::one_mass {
 inline mechanics::Network mass_before_a_stop() {
   return driven_mass({elastic_stops({1.0})});
 }
-inline mechanics::Network mass_between_stops() {
-  return driven_mass({elastic_stops({1.0, -1.0})});
-}
 inline mechanics::Network held_mass() {
   return driven_mass({static_friction()});
 }

@@ -22,10 +22,6 @@ constexpr double kClosed = 1e-10;                                       // of cl
 
 const Node ground{}, mass{NodeKind::mass, 0};
 
-Network mass_between_stops() {
-  return driven_mass({elastic_stops({1.0, -1.0})});
-}
-
 // zeta = 0.05, stops of stiffness 4 at a clearance of 1, or of infinity below: then one-sided.
 NetworkValues between_stops(double r) {
   return {.omega = r,
