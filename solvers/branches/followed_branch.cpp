@@ -98,6 +98,12 @@ bool FollowedBranch::is_known_after(const Step& step, const IsKnown& is_known) {
   return is_known_here;
 }
 
+// Where an event only just happens there are no multipliers: the orbits of the branch next to it judge.
+static void judge_at_kink(BranchPoint& point, bool neighbours_are_stable) {
+  if (point.is_balanced && std::isnan(point.floquet_radius))
+    point.stable = point.stable || neighbours_are_stable;
+}
+
 FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool stable, double sign,
                                                   const IsKnown& is_known, const BranchProgress& progress) {
   constexpr int kJoined = 2;      // points in turn: one alone is where two branches cross
@@ -112,8 +118,12 @@ FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool
     // A response this large whose energies are rounding grows without bound: its residual no longer shows.
     grows = point && !point->is_balanced && step.to->y.norm() > kLarge;
     if (grows) return false;
+    if (point) judge_at_kink(*point, stable);
     for (const SpecialPlace& each : step.special) {
       BranchPoint at = tell(each.place.y);
+      judge_at_kink(at, stable && (!point || point->stable));
+      const bool is_last_point = each.place.y == step.from.y && !way.points.empty();
+      if (is_last_point) way.points.pop_back();  // one row for the place
       at.arclength = sign * (arclength + (each.place.y - step.from.y).norm());
       way.special.push_back({each.kind, std::move(at), way.points.size(), each.element, each.residual});
     }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <vector>
 
 #include "linear_values.hpp"
@@ -44,6 +45,27 @@ TEST_CASE("Both halves of a branch of asymmetric orbits have the same special po
     CHECK(branch.special.size() == 18);
     REQUIRE(alone.size() == 2);  // at both crossings
     for (const SpecialPoint& each : alone) CHECK(each.kind == SpecialKind::fold);
+  }
+}
+
+// There the multipliers do not exist.
+TEST_CASE("A place where an event only just happens is one row, stable where the orbits next to it are") {
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0},
+                         .element = {1.0, 0.1, 0.2},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.0, 0.6}};
+  };
+  const Branch branch = follow_branch(driven_mass({static_friction()}), asked, linear(values),
+                                      {.low = 0.5, .high = 1.6, .start = 0.8});
+  const auto grazing = of_kind(branch, SpecialKind::grazing);
+  REQUIRE(grazing.size() == 1);
+  CHECK(grazing.front().at.stable);
+  CHECK(std::isnan(grazing.front().at.floquet_radius));
+  for (const BranchPoint& each : branch.points) {
+    CHECK(each.stable);
+    CHECK(each.arclength != grazing.front().at.arclength);
   }
 }
 
