@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -33,6 +35,8 @@ struct ValueKey {
   const char* symbol = "";  // in ElementKind::force; "": the key itself
   Dimension dimension = Dimension::number;
   Range range = Range::finite;
+  bool is_optional = false;          // 0 where it is left out
+  std::optional<FrictionLaw> law{};  // the only law of friction that has it; none: every law of the kind
 
   constexpr bool exists() const { return key[0] != '\0'; }
 };
@@ -86,11 +90,12 @@ struct ElementKind {  // NOLINT(cppcoreguidelines-pro-type-member-init): rows gi
   ValueKey slope{};                 // of the arctan law, which smooths its contact; none: nothing smooths it
   ValueKey cubic{};                 // of what it may add in u^3
   bool stroke_is_standard = false;  // its stroke is among what an atlas shows
-  bool second_is_optional = false;  // 0 where it is left out
   // How it bends: at the points of a table that it may have in place of its value; at its stops, which only
   // push, or pull as well. None: it does not.
   const laws::Bend *table = nullptr, *stop = nullptr, *pulling_stop = nullptr;
 
+  // All that a study file may give, those too that the kind has not.
+  constexpr std::array<const ValueKey*, 4> values() const { return {&value, &second, &slope, &cubic}; }
   constexpr bool can_be_smoothed() const { return slope.exists(); }
   // It feels the acceleration across it and nothing else.
   bool is_inertia_alone() const;

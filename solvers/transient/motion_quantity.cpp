@@ -159,6 +159,16 @@ periodic::QuantityDescription describe(const MotionQuantity& quantity, const Net
   return result;
 }
 
+std::vector<MotionQuantityWords> motion_quantity_words() {
+  std::vector<MotionQuantityWords> words;
+  for (const Row& row : kTable)
+    words.push_back({row.suffix, row.unit, row.meaning,
+                     is_of_coordinates(row.owner) ? "NODE"
+                     : is_of_elements(row.owner)  ? "ELEMENT"
+                                                  : ""});
+  return words;
+}
+
 std::vector<MotionQuantity> all_motion_quantities(const Network& network, bool of_run_up) {
   return quantities_where(network, of_run_up, [](const Row&, std::size_t) { return true; });
 }

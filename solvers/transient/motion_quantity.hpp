@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
@@ -50,6 +51,13 @@ struct MotionQuantity {
 // The status is not_computed, ok or failed, with the numbers of periodic::Status.
 periodic::QuantityDescription describe(const MotionQuantity& quantity, const mechanics::Network& network,
                                        bool dimensionless);
+
+// A quantity of any motion: "peak_time", "s", "time of the largest displacement of {}".
+struct MotionQuantityWords {
+  std::string_view suffix, unit, meaning;
+  std::string_view owner;  // "NODE", a mass or a signal, "ELEMENT", or "" of the motion as a whole
+};
+std::vector<MotionQuantityWords> motion_quantity_words();
 
 // Every quantity of a network's motion, in a fixed order. of_run_up: the frequency runs.
 std::vector<MotionQuantity> all_motion_quantities(const mechanics::Network& network, bool of_run_up);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "studies/identification/grey_box_task.hpp"
 #include "studies/reading/study/study_units.hpp"
 #include "studies/reading/study/study_values.hpp"
 

@@ -17,17 +17,19 @@ std::string unit_of(const Study& study, const std::string& unit) {
   return study.dimensionless ? "1" : unit;
 }
 
-// prefix: of the names, "" for those of the fit itself.
-void add_estimates(const Study& study, const Identification& found, const std::string& prefix,
+// is_first_stage: of the stage from which a grey box started, otherwise of the fit itself.
+void add_estimates(const Study& study, const Identification& found, bool is_first_stage,
                    GroupColumns& columns) {
   for (const Estimate& estimate : found.estimates) {
-    const std::string name = prefix + estimate.name, unit = unit_of(study, estimate.unit);
-    columns.add_number(name, unit, estimate.long_name, estimate.value);
-    columns.add_number(name + "_low", unit, "lower end of the 95 % interval of " + name, estimate.low);
-    columns.add_number(name + "_high", unit, "upper end of the 95 % interval of " + name, estimate.high);
-    columns.add_number(name + "_standard_error", unit, "standard error of " + name, estimate.standard_error);
-    columns.add_number(name + "_degrees_of_freedom", "1", "degrees of freedom of the interval of " + name,
-                       estimate.degrees_of_freedom);
+    const std::string unit = unit_of(study, estimate.unit);
+    const Named named = is_first_stage ? Named("first_*", {estimate.name}, {estimate.long_name})
+                                       : Named::by_study(estimate.name, estimate.long_name);
+    const std::string& name = named.name();
+    columns.add_number(named, unit, estimate.value);
+    columns.add_number({"*_low", name}, unit, estimate.low);
+    columns.add_number({"*_high", name}, unit, estimate.high);
+    columns.add_number({"*_standard_error", name}, unit, estimate.standard_error);
+    columns.add_number({"*_degrees_of_freedom", name}, "1", estimate.degrees_of_freedom);
   }
 }
 
@@ -40,29 +42,25 @@ void add_covariance(const Identification& found, GroupColumns& columns) {
   const Eigen::MatrixXd correlation = identification::correlation(found.covariance);
   for (std::size_t i = 0; i < found.estimates.size(); ++i) {
     const std::string& name = found.estimates[i].name;
-    columns.add(name + "_covariance", "1",
-                "covariance of " + name + " with each estimate, in the product of their units", "estimate",
-                row_of(found.covariance, i));
-    columns.add(name + "_correlation", "1", "correlation of " + name + " with each estimate", "estimate",
-                row_of(correlation, i));
+    columns.add({"*_covariance", name}, "1", "estimate", row_of(found.covariance, i));
+    columns.add({"*_correlation", name}, "1", "estimate", row_of(correlation, i));
   }
 }
 
 // The data of a residual plot.
 void add_record(const Study& study, const FittedRecord& record, GroupColumns& columns) {
   const std::string along = record.name + "_" + record.over;
-  columns.add(along, unit_of(study, record.over_unit), record.over + " of the record " + record.name, along,
-              record.at);
+  columns.add(Named::by_study(along, record.over + " of the record " + record.name),
+              unit_of(study, record.over_unit), along, record.at);
   for (const identification::FittedSeries& series : record.series) {
     const std::string name = record.name + "_" + series.name, unit = unit_of(study, series.unit);
     std::vector<double> residual;
     for (std::size_t i = 0; i < series.measured.size(); ++i)
       residual.push_back(series.measured[i] - series.fitted[i]);
-    columns.add(name + "_measured", unit, series.name + " as measured", along, series.measured);
-    columns.add(name + "_fitted", unit, series.name + " of the model", along, series.fitted);
-    columns.add(name + "_residual", unit, "measured minus fitted " + series.name, along, std::move(residual));
-    columns.add_number(name + "_nrmse", "percent", "fit quality of " + name,
-                       identification::nrmse(std::span(&series, 1)));
+    columns.add({"*_measured", {name}, {series.name}}, unit, along, series.measured);
+    columns.add({"*_fitted", {name}, {series.name}}, unit, along, series.fitted);
+    columns.add({"*_residual", {name}, {series.name}}, unit, along, std::move(residual));
+    columns.add_number({"*_nrmse", name}, "percent", identification::nrmse(std::span(&series, 1)));
   }
 }
 
@@ -84,24 +82,21 @@ void refuse_same_names(const Study& study, const std::vector<results::Column>& c
 std::vector<results::Column> identification_columns(const Study& study, const IdentificationResult& result) {
   GroupColumns columns;
   const Identification& fit = result.fit;
-  add_estimates(study, fit, "", columns);
-  if (result.first) add_estimates(study, *result.first, "first_", columns);
+  add_estimates(study, fit, false, columns);
+  if (result.first) add_estimates(study, *result.first, true, columns);
   add_covariance(fit, columns);
   if (!fit.records.empty()) {
     std::vector<double> quality;
     for (const FittedRecord& record : fit.records) quality.push_back(record.nrmse);
-    columns.add("nrmse", "percent",
-                "fit quality of each record, 100 (1 - |y - yhat| / |y - mean y|); 100 is a perfect fit",
-                "record", std::move(quality));
+    columns.add("nrmse", "percent", "record", std::move(quality));
   }
   for (const identification::RowColumn& row : fit.rows)
-    columns.add(row.name, unit_of(study, row.unit), row.long_name, "row", row.values);
+    columns.add(Named::by_study(row.name, row.long_name), unit_of(study, row.unit), "row", row.values);
   for (const FittedRecord& record : fit.records) add_record(study, record, columns);
-  columns.add_flag("outcome", "how the identification ended", "", {"converged", "not_converged"},
+  columns.add_flag("outcome", "", {"converged", "not_converged"},
                    {fit.converged ? converged_outcome : converged_outcome + 1.0});
-  columns.add_number("degrees_of_freedom", "1", "degrees of freedom of the residuals",
-                     fit.degrees_of_freedom);
-  columns.add_count("iterations", "iterations of the fit", "", {static_cast<double>(fit.iterations)});
+  columns.add_number("degrees_of_freedom", "1", fit.degrees_of_freedom);
+  columns.add_count("iterations", "", {static_cast<double>(fit.iterations)});
   std::vector<results::Column> all = columns.take();
   refuse_same_names(study, all);
   return all;

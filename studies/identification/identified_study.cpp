@@ -10,7 +10,6 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "studies/identification/identification_columns.hpp"
-#include "studies/identification/identified_study.hpp"
 #include "studies/motion/one_motion.hpp"
 #include "studies/provenance/stored_study.hpp"
 #include "studies/reading/study/study.hpp"

@@ -1,26 +1,14 @@
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "studies/map/map_groups.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
 
-// Values 1, 2 ... in their order: 0 means not computed.
-results::Variable flag_of(const std::string& name, const std::string& long_name,
-                          const std::vector<std::string>& meanings) {
-  results::Variable variable{.name = name, .long_name = long_name, .type = results::Type::flag};
-  variable.flags.push_back({"not_computed", 0});
-  for (const std::string& meaning : meanings)
-    variable.flags.push_back({meaning, static_cast<int>(variable.flags.size())});
-  return variable;
-}
-
 // The regimes as flags of the map.
-results::Variable regime(const Study& study, std::size_t element, const std::string& name,
-                         const std::string& long_name) {
-  results::Variable variable{.name = name, .long_name = long_name, .type = results::Type::flag};
+results::Variable regime(const Study& study, std::size_t element, const Named& named) {
+  results::Variable variable{.name = named.name(), .long_name = named.meaning(), .type = results::Type::flag};
   const auto description = periodic::describe({periodic::Measure::regime, element}, study.network, false);
   for (const auto& [meaning, value] : description.flags) variable.flags.push_back({meaning, value});
   return variable;
@@ -31,12 +19,8 @@ results::Variable regime(const Study& study, std::size_t element, const std::str
 std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
   const Study& study = plan.study;
   std::vector<results::Variable> variables;
-  for (const ParameterAxis& axis : study.map()->axes) {
-    const std::string& name = study.parameters.list[axis.parameter].name;
-    variables.push_back({.name = name,
-                         .unit = axis.unit.empty() ? "1" : axis.unit,
-                         .long_name = fmt::format("parameter {}", name)});
-  }
+  for (const ParameterAxis& axis : study.map()->axes)
+    variables.push_back(parameter_variable(study, axis.parameter, axis.unit));
   std::vector<std::string> elements, dimensions;
   std::size_t one_contact = 0;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
@@ -45,12 +29,10 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
     one_contact = e;
   }
   for (const GridDimension& dimension : study.map()->dimensions) dimensions.push_back(dimension.name);
-  variables.push_back(flag_of("element", "coulomb element whose regime changes", elements));
-  variables.push_back(flag_of("axis", "dimension of the map along which it changes", dimensions));
-  variables.push_back(
-      regime(study, one_contact, "regime_below", "regime towards the lower index of the axis"));
-  variables.push_back(
-      regime(study, one_contact, "regime_above", "regime towards the higher index of the axis"));
+  variables.push_back(flag_variable("element", elements));
+  variables.push_back(flag_variable("axis", dimensions));
+  variables.push_back(regime(study, one_contact, "regime_below"));
+  variables.push_back(regime(study, one_contact, "regime_above"));
   return writer.create_ragged({.group = "borders", .row = "border", .row_variables = variables});
 }
 

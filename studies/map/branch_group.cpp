@@ -11,6 +11,7 @@
 #include "studies/map/branch_rows.hpp"
 #include "studies/map/map_groups.hpp"
 #include "studies/provenance/assembly_stage.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -20,23 +21,15 @@ using periodic::BranchEnd, periodic::SpecialKind;
 constexpr int none = 1;                  // of a flag: after "not_computed"
 constexpr int stable = 1, unstable = 2;  // values of `stability`
 
-results::Variable flag(const std::string& name, const std::string& long_name,
-                       const std::vector<std::string>& meanings) {
-  results::Variable variable{.name = name, .long_name = long_name, .type = results::Type::flag};
-  variable.flags.push_back({"not_computed", 0});
-  for (const std::string& meaning : meanings)
-    variable.flags.push_back({meaning, static_cast<int>(variable.flags.size())});
-  return variable;
+results::Variable parameter_of_branch(const Study& study, std::size_t parameter) {
+  return parameter_variable(study, parameter, usual_unit(study, parameter).text);
 }
 
-results::Variable parameter_variable(const Study& study, std::size_t parameter) {
-  const std::string& name = study.parameters.list[parameter].name;
-  const std::string unit = usual_unit(study, parameter).text;
-  return {.name = name, .unit = unit.empty() ? "1" : unit, .long_name = fmt::format("parameter {}", name)};
-}
-
-results::Variable number(const std::string& name, const std::string& long_name) {
-  return {.name = name, .unit = "1", .long_name = long_name};
+// A quantity of the search, with all its digits.
+results::Variable of_the_search(const Study& study, periodic::Measure measure,
+                                results::Type type = results::Type::float64) {
+  const auto quantity = periodic::describe({measure, 0}, study.network, study.dimensionless);
+  return variable(Named::by_study(quantity.name, quantity.long_name), quantity.unit, type);
 }
 
 std::vector<results::Variable> row_variables(const Study& study, const std::vector<std::size_t>& beside) {
@@ -44,13 +37,10 @@ std::vector<results::Variable> row_variables(const Study& study, const std::vect
   for (int end = 0; end <= static_cast<int>(BranchEnd::family); ++end)
     ends.emplace_back(periodic::end_name(static_cast<BranchEnd>(end)));
   std::vector<results::Variable> variables;
-  for (const std::size_t parameter : beside) variables.push_back(parameter_variable(study, parameter));
-  variables.push_back({.name = "period_multiple",
-                       .unit = "1",
-                       .long_name = "periods of the excitation that the orbits take",
-                       .type = results::Type::int32});
-  variables.push_back(flag("first_end", "why the branch ends before its first point", ends));
-  variables.push_back(flag("last_end", "why the branch ends after its last point", ends));
+  for (const std::size_t parameter : beside) variables.push_back(parameter_of_branch(study, parameter));
+  variables.push_back(of_the_search(study, periodic::Measure::period_multiple, results::Type::int32));
+  variables.push_back(flag_variable("first_end", ends));
+  variables.push_back(flag_variable("last_end", ends));
   return variables;
 }
 
@@ -61,19 +51,17 @@ std::vector<results::Variable> sample_variables(const Study& study, std::size_t 
   for (int kind = 0; kind <= static_cast<int>(SpecialKind::corner); ++kind)
     kinds.emplace_back(periodic::kind_name(static_cast<SpecialKind>(kind)));
   for (const std::size_t element : elements) names.push_back(study.network.elements[element].name);
-  std::vector<results::Variable> variables{
-      parameter_variable(study, along),
-      number("arclength", "length of the scaled branch from its first point")};
+  std::vector<results::Variable> variables{parameter_of_branch(study, along), variable("arclength")};
   for (const periodic::Quantity& each : quantities) {
     variables.push_back(variable_of(study, periodic::describe(each, study.network, study.dimensionless)));
     variables.back().significant_bits = 0;
   }
-  variables.push_back(number("floquet_radius", "largest modulus of the multipliers over the whole period"));
-  variables.push_back(number("residual", "residual of the periodic condition, relative to the orbit"));
-  variables.push_back(flag("stability", "stability of the orbit", {"stable", "unstable"}));
-  variables.push_back(flag("special", "kind of a special point", kinds));
-  variables.push_back(number("special_residual", "residual of the equation of a special point"));
-  variables.push_back(flag("special_element", "element whose event begins or ends there", names));
+  variables.push_back(of_the_search(study, periodic::Measure::floquet_radius));
+  variables.push_back(of_the_search(study, periodic::Measure::residual));
+  variables.push_back(flag_variable("stability", {"stable", "unstable"}));
+  variables.push_back(flag_variable("special", kinds));
+  variables.push_back(variable("special_residual"));
+  variables.push_back(flag_variable("special_element", names));
   return variables;
 }
 

@@ -8,6 +8,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/smooth_laws.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -35,6 +36,10 @@ std::string circumstance(const Comparison& comparison) {
   if (comparison.taylor_order > 0)
     return fmt::format("with the crank cut at order {}", comparison.taylor_order);
   return comparison.law == FrictionLaw::arctan ? "under the arctan law" : "under the exact law";
+}
+
+QuantityDescription described(const Named& named, const std::string& unit) {
+  return {.name = named.name(), .unit = unit, .long_name = named.meaning(), .flags = {}};
 }
 
 }  // namespace
@@ -89,19 +94,14 @@ std::vector<QuantityDescription> compared_variables(const Study& study) {
   std::vector<QuantityDescription> result;
   for (const periodic::Quantity& quantity : study.sweep()->comparison->quantities) {
     const QuantityDescription own = periodic::describe(quantity, study.network, study.dimensionless);
-    result.push_back({.name = fmt::format("{}_compared", own.name),
-                      .unit = own.unit,
-                      .long_name = fmt::format("{}, {}", own.long_name, how),
-                      .flags = {}});
-    result.push_back({.name = fmt::format("{}_difference", own.name),
-                      .unit = "1",
-                      .long_name = fmt::format("relative difference of {} {}", own.name, how),
-                      .flags = {}});
+    result.push_back(described({"*_compared", {own.name}, {own.long_name, how}}, own.unit));
+    result.push_back(described({"*_difference", {own.name}, {own.name, how}}, "1"));
   }
   QuantityDescription status =
       periodic::describe({periodic::Measure::status, 0}, study.network, study.dimensionless);
-  status.name = fmt::format("{}_compared", status.name);
-  status.long_name = fmt::format("{}, {}", status.long_name, how);
+  const Named compared("*_compared", {status.name}, {status.long_name, how});
+  status.name = compared.name();
+  status.long_name = compared.meaning();
   result.push_back(status);
   return result;
 }

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "results/store_error.hpp"
-#include "studies/map/earlier_axes.hpp"
 #include "studies/map/value_match.hpp"
 #include "studies/reading/quantities/units.hpp"
 

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "engine/io_error.hpp"
-#include "studies/map/earlier_file.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/reading/text/study_source.hpp"
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "solvers/mechanics/modes.hpp"
-#include "studies/map/first_modes.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/provenance/group_columns.hpp"
 #include "studies/reading/study/study_units.hpp"
@@ -27,15 +26,13 @@ std::vector<results::Column> mode_columns(const Study& study, periodic::LinearMo
   modes.frequency.resize(count);
   modes.damping.resize(count);
   GroupColumns columns;
-  columns.add_count("mode", "number of the mode", "mode", numbers_from_one(count));
+  columns.add_count("mode", "mode", numbers_from_one(count));
   const UsualUnit unit = frequency_unit_in_file(study);
   for (double& frequency : modes.frequency) frequency /= unit.si_factor;
-  columns.add("mode_frequency", unit.text, "undamped natural frequency with all friction sliding", "mode",
-              modes.frequency);
-  columns.add("mode_damping", "1", "damping ratio", "mode", modes.damping);
+  columns.add("mode_frequency", unit.text, "mode", modes.frequency);
+  columns.add("mode_damping", "1", "mode", modes.damping);
   for (std::size_t k = 0; k < count; ++k)
-    columns.add(fmt::format("mode_shape_{}", k + 1), "1",
-                fmt::format("displacement of each mass in mode {}, the largest 1", k + 1), "mode_mass",
+    columns.add({"mode_shape_*", {std::to_string(k + 1)}, {fmt::format("mode {}", k + 1)}}, "1", "mode_mass",
                 modes.shape[k]);
   return columns.take();
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "studies/map/grid.hpp"
 #include "studies/map/motion_cost.hpp"
 #include "studies/map/orbit_cost.hpp"
 #include "studies/reading/quantities/unit_words.hpp"

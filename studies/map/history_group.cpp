@@ -50,8 +50,7 @@ KeptHistory keep_history(const Study& study, const KeptPoint& point, const Assem
 std::vector<results::Column> history_columns(const Study& study, const transient::ForcedMotion& motion) {
   MotionColumns columns(study);
   columns.add_samples(motion.history);
-  if (study.transient()->sweep_to)
-    columns.add_frequencies("frequency", "frequency of the excitation", "time", motion.frequency);
+  if (study.transient()->sweep_to) columns.add_frequencies("frequency", "time", motion.frequency);
   return columns.take();
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "studies/map/known_digits.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -28,7 +29,7 @@ results::Coordinate coordinate_of(const RecordAxis& records, const GridDimension
   std::iota(numbers.begin(), numbers.end(), 0.0);
   return {.name = dimension.name,
           .unit = "1",
-          .long_name = "number of the record",
+          .long_name = Named("record").meaning(),
           .values = std::move(numbers),
           .names = records.names};
 }
@@ -54,15 +55,16 @@ std::vector<results::Axis> axes_of(const Study& study) {
 
 }  // namespace
 
+results::Variable parameter_variable(const Study& study, std::size_t parameter, const std::string& unit) {
+  const std::string& name = study.parameters.list[parameter].name;
+  return variable(Named::by_study(name, "parameter " + name), unit);
+}
+
 std::vector<results::Variable> row_variables(const Study& study) {
   std::vector<results::Variable> variables;
-  for (const ParameterAxis& axis : study.map()->axes) {
-    const std::string& name = study.parameters.list[axis.parameter].name;
-    variables.push_back(
-        {.name = name, .unit = unit_or_one(axis.unit), .long_name = fmt::format("parameter {}", name)});
-  }
-  if (study.map()->records)
-    variables.push_back({.name = "record", .unit = "1", .long_name = "number of the record"});
+  for (const ParameterAxis& axis : study.map()->axes)
+    variables.push_back(parameter_variable(study, axis.parameter, axis.unit));
+  if (study.map()->records) variables.push_back(variable("record"));
   return variables;
 }
 

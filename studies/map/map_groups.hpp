@@ -22,6 +22,9 @@ results::MapLayout map_layout(const MapPlan& plan, const RunFacts& run);
 // How a quantity is recorded.
 results::Variable variable_of(const Study& study, const periodic::QuantityDescription& description);
 
+// A parameter of the study, as a coordinate of points or rows.
+results::Variable parameter_variable(const Study& study, std::size_t parameter, const std::string& unit);
+
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
 // none. An orbit that does not exist has a row without samples. Throws AssemblyStopped.
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);

@@ -11,7 +11,6 @@
 #include "solvers/algebra/no_value.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/map/map_chunks.hpp"
-#include "studies/map/map_summary.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/reading/text/decimal_digits.hpp"
 

@@ -13,7 +13,6 @@
 
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/map_groups.hpp"
-#include "studies/map/map_words.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_units.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "studies/map/motion_quantities.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/reading/text/name_pattern.hpp"
 

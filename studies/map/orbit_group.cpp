@@ -13,6 +13,7 @@
 #include "studies/map/map_groups.hpp"
 #include "studies/map/way_of_slow_sweep.hpp"
 #include "studies/provenance/assembly_stage.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -105,36 +106,31 @@ KeptOrbit keep_orbit(const MapPlan& plan, const KeptPoint& point) {
 std::vector<results::Variable> sample_variables(const Study& study) {
   std::vector<results::Variable> variables;
   const mechanics::Network& network = study.network;
-  const auto add = [&](const std::string& name, std::string_view unit, const std::string& long_name) {
-    variables.push_back(
-        {.name = name, .unit = study.dimensionless ? "1" : std::string(unit), .long_name = long_name});
+  const auto add = [&](const Named& named, std::string_view unit) {
+    variables.push_back(variable(named, study.dimensionless ? "1" : std::string(unit)));
   };
-  add("time", "s", "time within the period, from omega t = 0");
-  const auto add_of_coordinate = [&](std::size_t i, const char* unit, const std::string& what) {
-    const std::string& name = mechanics::coordinate_name(network, i);
-    add(name + "_" + what, mechanics::coordinate_unit(network, i, unit), what + " of " + name);
-  };
-  const auto add_of_element = [&](const mechanics::Element& element, const char* suffix, const char* unit,
-                                  const std::string& what) {
-    add(element.name + suffix, mechanics::unit_of_element(element, unit), what + " " + element.name);
+  add({"time", {}, {"omega t = 0, within the period"}}, "s");
+  const auto add_of_coordinate = [&](const char* row, std::size_t i, const char* unit) {
+    add({row, mechanics::coordinate_name(network, i)}, mechanics::coordinate_unit(network, i, unit));
   };
   for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    add_of_coordinate(i, "m", "displacement");
-    add_of_coordinate(i, "m s-1", "velocity");
+    add_of_coordinate("*_displacement", i, "m");
+    add_of_coordinate("*_velocity", i, "m s-1");
   }
   for (const auto& element : network.elements) {
-    if (element.parts > 0) add_of_element(element, "_force", "N", "force of");
+    if (element.parts > 0) add({"*_force", element.name}, mechanics::unit_of_element(element, "N"));
   }
-  for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_coordinate(i, "m s-2", "acceleration");
+  for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_coordinate("*_acceleration", i, "m s-2");
   for (std::size_t i = network.masses.size(); i < mechanics::coordinate_count(network); ++i) {
-    add_of_coordinate(i, "m", "displacement");
-    add_of_coordinate(i, "m s-1", "velocity");
-    add_of_coordinate(i, "m s-2", "acceleration");
+    add_of_coordinate("*_displacement", i, "m");
+    add_of_coordinate("*_velocity", i, "m s-1");
+    add_of_coordinate("*_acceleration", i, "m s-2");
   }
   for (const auto& element : network.elements) {
     if (!tells_sliding(element)) continue;
-    add_of_element(element, "_displacement", "m", "relative displacement across");
-    add_of_element(element, "_sliding_velocity", "m s-1", "relative velocity across");
+    add({"*_displacement", {element.name}, {"slider " + element.name}},
+        mechanics::unit_of_element(element, "m"));
+    add({"*_sliding_velocity", element.name}, mechanics::unit_of_element(element, "m s-1"));
   }
   return variables;
 }

@@ -8,7 +8,6 @@
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
-#include "studies/map/output_quantities.hpp"
 #include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {

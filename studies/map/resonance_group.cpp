@@ -12,6 +12,7 @@
 #include "solvers/response/resonance_peak.hpp"
 #include "studies/map/map_groups.hpp"
 #include "studies/provenance/assembly_stage.hpp"
+#include "studies/provenance/result_variables.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_units.hpp"
 
@@ -94,28 +95,24 @@ class ResponseCurves {
 // The coordinates of the rows, and the resonance of each mass.
 std::vector<results::Variable> row_variables(const Study& study, std::size_t frequency_dimension) {
   std::vector<results::Variable> variables;
-  const auto add = [&](const std::string& name, const std::string& unit, const std::string& long_name) {
-    const bool pure = unit.empty() || study.dimensionless;
-    variables.push_back({.name = name, .unit = pure ? "1" : unit, .long_name = long_name});
+  const auto add = [&](const Named& named, const std::string& unit) {
+    variables.push_back(variable(named, study.dimensionless ? "1" : unit));
   };
   for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
     if (d == frequency_dimension) continue;
     for (const std::size_t a : study.map()->dimensions[d].axes) {
-      const std::string& name = study.parameters.list[study.map()->axes[a].parameter].name;
-      add(name, study.map()->axes[a].unit, "parameter " + name);
+      const ParameterAxis& axis = study.map()->axes[a];
+      variables.push_back(parameter_variable(study, axis.parameter, study.dimensionless ? "1" : axis.unit));
     }
   }
   const std::string of_frequency = frequency_unit_in_file(study).text;
   for (const std::size_t mass : study.sweep()->resonances) {
     const std::string& name = mechanics::coordinate_name(study.network, mass);
-    add(name + "_resonance_frequency", of_frequency, "frequency at which " + name + " moves most");
-    add(name + "_resonance_amplitude", std::string(mechanics::coordinate_unit(study.network, mass, "m")),
-        "amplitude of " + name + " at the reference order there");
-    add(name + "_half_power_low", of_frequency,
-        "frequency below it at which the amplitude is 1/sqrt(2) of that");
-    add(name + "_half_power_high", of_frequency,
-        "frequency above it at which the amplitude is 1/sqrt(2) of that");
-    add(name + "_half_power_damping", "1", "(high - low) / (2 resonance frequency)");
+    add({"*_resonance_frequency", name}, of_frequency);
+    add({"*_resonance_amplitude", name}, std::string(mechanics::coordinate_unit(study.network, mass, "m")));
+    add({"*_half_power_low", name}, of_frequency);
+    add({"*_half_power_high", name}, of_frequency);
+    add({"*_half_power_damping", name}, "1");
   }
   return variables;
 }

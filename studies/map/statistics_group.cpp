@@ -9,6 +9,7 @@
 #include "solvers/samples/scatter.hpp"
 #include "studies/map/tile_entry.hpp"
 #include "studies/provenance/assembly_stage.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -152,28 +153,14 @@ std::vector<results::Variable> statistics_variables(const MapPlan& plan) {
   std::vector<results::Variable> variables;
   for (const std::size_t v : described_variables(plan)) {
     const periodic::QuantityDescription& of = plan.variables[v];
-    const auto add = [&](const std::string& suffix, const std::string& what) {
-      variables.push_back({.name = of.name + suffix,
-                           .unit = of.unit,
-                           .long_name = fmt::format("{} of {} over the samples", what, of.long_name)});
-    };
-    const std::string low = "lower end of the 95 % interval of the ",
-                      high = "upper end of the 95 % interval of the ";
-    add("_mean", "mean");
-    add("_mean_low", low + "mean");
-    add("_mean_high", high + "mean");
-    add("_deviation", "standard deviation");
+    for (const char* row : {"*_mean", "*_mean_low", "*_mean_high", "*_deviation"})
+      variables.push_back(variable({row, {of.name}, {of.long_name}}, of.unit));
     for (const double share : plan.study.map()->samples->quantiles) {
-      const std::string suffix = "_" + quantile_name(share),
-                        quantile = fmt::format("{:.6g} % quantile", 100 * share);
-      add(suffix, quantile);
-      add(suffix + "_low", low + quantile);
-      add(suffix + "_high", high + quantile);
+      const std::vector<std::string> words{fmt::format("{:.6g} %", 100 * share), of.long_name};
+      for (const char* row : {"*_q*", "*_q*_low", "*_q*_high"})
+        variables.push_back(variable({row, {of.name, quantile_name(share).substr(1)}, words}, of.unit));
     }
-    variables.push_back({.name = of.name + "_samples",
-                         .unit = "1",
-                         .long_name = fmt::format("number of samples with a value of {}", of.long_name),
-                         .type = results::Type::int32});
+    variables.push_back(variable({"*_samples", {of.name}, {of.long_name}}, "1", results::Type::int32));
   }
   return variables;
 }

@@ -14,6 +14,7 @@
 #include "solvers/samples/scatter.hpp"
 #include "studies/map/statistics_group.hpp"
 #include "studies/provenance/assembly_stage.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -145,23 +146,12 @@ std::vector<results::Variable> tornado_variables(const MapPlan& plan) {
   std::vector<results::Variable> variables;
   for (const periodic::Quantity& quantity : tornado_quantities(plan)) {
     const auto of = periodic::describe(quantity, plan.study.network, plan.study.dimensionless);
-    variables.push_back({.name = of.name + "_at_mean",
-                         .unit = of.unit,
-                         .long_name = of.long_name + " at the mean of the samples"});
-    variables.push_back({.name = of.name + "_first_order_deviation",
-                         .unit = of.unit,
-                         .long_name = "standard deviation of " + of.long_name + " to first order"});
+    variables.push_back(variable({"*_at_mean", {of.name}, {of.long_name}}, of.unit));
+    variables.push_back(variable({"*_first_order_deviation", {of.name}, {of.long_name}}, of.unit));
     for (const std::size_t axis : map.samples->axes) {
       const std::string& name = plan.study.parameters.list[map.axes[axis].parameter].name;
-      variables.push_back(
-          {.name = fmt::format("{}_by_{}", of.name, name),
-           .unit = of.unit,
-           .long_name = fmt::format("change of {} by one standard deviation of {}, to first order",
-                                    of.long_name, name)});
-      variables.push_back(
-          {.name = fmt::format("{}_share_{}", of.name, name),
-           .unit = "1",
-           .long_name = fmt::format("share of {} in the first-order variance of {}", name, of.long_name)});
+      variables.push_back(variable({"*_by_*", {of.name, name}, {of.long_name, name}}, of.unit));
+      variables.push_back(variable({"*_share_*", {of.name, name}, {name, of.long_name}}, "1"));
     }
   }
   return variables;

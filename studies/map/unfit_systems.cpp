@@ -12,27 +12,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The dimensions along which masses or elements change: all of which a system may be refused for.
-std::vector<std::size_t> dimensions_of_systems(const Study& study) {
-  const StudyValues& values = study.values;
-  std::vector<std::size_t> reads;
-  const auto add = [&](const StudyValue& value) {
-    reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
-  };
-  for (const auto* list : {&values.mass, &values.element, &values.second, &values.slope, &values.cubic,
-                           &values.damping, &values.points})
-    std::ranges::for_each(*list, add);
-  if (mechanics::frequency_dependent_element(study.network) != nullptr) add(values.omega);
-  return dimensions_moving(study, reads);
-}
-
 UnfitSystems try_systems(const Study& study, bool until_fit) {
   constexpr std::chrono::milliseconds most_time(500);
   UnfitSystems found;
   if (!study.values.read_by_factors().empty()) return found;  // whose network is another at each point
   const Clock::time_point end = Clock::now() + most_time;
   const mechanics::Assembly assembly(study.network);
-  const std::vector<std::size_t> moving = dimensions_of_systems(study);
+  // All of which a system may be refused for.
+  const std::vector<std::size_t> moving =
+      dimensions_moving(study, study.values.read_by_system(study.network));
   const MapChoice& map = *study.map();
   MapBox box;
   for (const GridDimension& dimension : map.dimensions) {

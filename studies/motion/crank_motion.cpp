@@ -24,18 +24,16 @@ void add_crank(MotionColumns& columns, const std::string& name, double radius, d
   const std::vector<double> angles = angles_of_a_turn();
   std::vector<double> motion;
   for (const double angle : angles) motion.push_back(crank_displacement(radius, rod, angle));
-  columns.add(name + "_motion", "m", "displacement of " + name + " by its crank", "angle", motion);
+  columns.add({"*_motion", name}, "m", "angle", motion);
   for (const int order : {1, 2, 4}) {
     std::vector<double> cut, error;
     for (std::size_t i = 0; i < angles.size(); ++i) {
       cut.push_back(crank_displacement(radius, rod, angles[i], order));
       error.push_back(std::abs(cut[i] - motion[i]) / (motion[i] + rod));
     }
-    const std::string series = fmt::format("{}_taylor_{}", name, order);
-    columns.add(series, "m", fmt::format("its Taylor series in crank over rod, cut at order {}", order),
-                "angle", cut);
-    columns.add(series + "_error", "1",
-                fmt::format("error of the series at order {}, relative to l_AC", order), "angle", error);
+    const std::vector<std::string> words{name, std::to_string(order)};
+    columns.add({"*_taylor_*", words, words}, "m", "angle", cut);
+    columns.add({"*_taylor_*_error", words, words}, "1", "angle", error);
   }
 }
 
@@ -55,7 +53,7 @@ std::vector<results::Column> crank_motions(const Study& study) {
   const auto is_crank = [](const auto& e) { return e.kind == mechanics::ExcitationKind::crank; };
   MotionColumns columns(study);
   if (std::none_of(excitations.begin(), excitations.end(), is_crank)) return columns.take();
-  columns.add("angle", "rad", "angle of the crank", "angle", angles_of_a_turn());
+  columns.add("angle", "rad", "angle", angles_of_a_turn());
   std::vector<double> parameters = study.parameters.nominal();
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);

@@ -115,19 +115,14 @@ std::vector<results::Column> decay_columns(const Study& study, const FreeDecay& 
       times.push_back(extremum.time);
       values.push_back(extremum.displacement);
     }
-    columns.add(name + "_extremum_time", "s", "times at which the velocity of " + name + " is zero",
-                "extremum", times, rows);
-    columns.add(name + "_extremum", unit, "displacement of " + name + " at its extrema", "extremum", values,
-                rows);
-    columns.add(name + "_log_decrement", "1", "ln abs(x_i / x_(i+2)) of the extrema of " + name, "extremum",
-                decay.masses[i].log_decrement, rows);
-    columns.add_number(name + "_rest", unit, "displacement at which " + name + " rests, or to which it tends",
-                       decay.masses[i].rest);
+    columns.add({"*_extremum_time", name}, "s", "extremum", times, rows);
+    columns.add({"*_extremum", name}, unit, "extremum", values, rows);
+    columns.add({"*_log_decrement", name}, "1", "extremum", decay.masses[i].log_decrement, rows);
+    columns.add_number({"*_rest", name}, unit, decay.masses[i].rest);
   }
-  columns.add_number("stop_time", "s", "time from which nothing moves any more", decay.stop_time);
-  columns.add_number("duration", "s", "time until which the motion is recorded", decay.duration);
-  columns.add_frequencies("reference_frequency", "frequency of the loss factors", "",
-                          {decay.hysteretic_omega});
+  columns.add_number("stop_time", "s", decay.stop_time);
+  columns.add_number("duration", "s", decay.duration);
+  columns.add_frequencies("reference_frequency", "", {decay.hysteretic_omega});
   add_energies(study, decay.energy, columns);
   if (!decay.history.time.empty()) columns.add_samples(decay.history);
   return columns.take();

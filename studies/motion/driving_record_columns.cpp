@@ -42,13 +42,15 @@ void add_driving_records(const Study& study, MotionColumns& columns) {
     const bool is_force = record.of == RecordOf::force;
     const std::string& node = (is_force ? network.masses : network.prescribed)[component.node];
     const auto [word, unit] = recorded(record.of, is_force && mechanics::rotates(network, component.node));
-    std::string name = fmt::format("{}_recorded_{}", node, word);
-    if (const int number = ++times_named[name]; number > 1) name += fmt::format("_{}", number);
+    const std::string what = fmt::format("{}_{}", node, word);
+    const int number = ++times_named[what];
+    const std::string sort = number == 1 ? std::string(word) : fmt::format("{}_{}", word, number);
     std::vector<double> scaled = record.values;
     for (double& value : scaled) value *= values.excitation[driven.excitation].amplitude;
-    const std::string along = name + "_time";
-    columns.add(along, "s", fmt::format("times of the samples of {}", record.name), along, record.time);
-    columns.add(name, unit, fmt::format("{} of {} by {}", word, node, record.name), along, std::move(scaled));
+    const Named times("*_recorded_*_time", {node, sort}, {record.name});
+    columns.add(times, "s", times.name(), record.time);
+    columns.add({"*_recorded_*", {node, sort}, {std::string(word), node, record.name}}, unit, times.name(),
+                std::move(scaled));
   }
 }
 

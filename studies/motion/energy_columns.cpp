@@ -12,28 +12,21 @@
 namespace frahm::studies {
 
 void add_energies(const Study& study, const transient::EnergyBudget& energy, MotionColumns& columns) {
+  using transient::MotionMeasure;
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!mechanics::kind_of(elements[e]).dissipates || elements[e].parts == 0) continue;
-    const std::string& name = elements[e].name;
-    columns.add_number(name + "_energy", "J", "energy dissipated by " + name, energy.dissipated[e]);
-    columns.add_number(name + "_energy_share", "1", "share of " + name + " in the energy dissipated",
-                       energy.share[e]);
+    columns.add_quantity({MotionMeasure::energy, e}, energy.dissipated[e]);
+    columns.add_quantity({MotionMeasure::energy_share, e}, energy.share[e]);
   }
   if (mechanics::has_structural_damping(study.network)) {
-    columns.add_number("damping_energy", "J", "energy dissipated by the damping of the structure",
-                       energy.dissipated.back());
-    columns.add_number("damping_energy_share", "1",
-                       "share of the damping of the structure in the energy dissipated", energy.share.back());
+    columns.add_quantity({MotionMeasure::damping_energy}, energy.dissipated.back());
+    columns.add_quantity({MotionMeasure::damping_energy_share}, energy.share.back());
   }
-  columns.add_number("initial_energy", "J", "kinetic and potential energy at the start", energy.initial);
-  columns.add_number("final_energy", "J", "kinetic and potential energy at the end", energy.final);
-  if (study.kind() == StudyKind::transient)
-    columns.add_number("energy_input", "J", "work of the excitation", energy.input);
-  columns.add_number(
-      "energy_balance", "1",
-      "energy at the start plus energy put in, minus energy dissipated and energy at the end, relative",
-      energy.balance);
+  columns.add_quantity({MotionMeasure::initial_energy}, energy.initial);
+  columns.add_quantity({MotionMeasure::final_energy}, energy.final);
+  if (study.kind() == StudyKind::transient) columns.add_quantity({MotionMeasure::energy_input}, energy.input);
+  columns.add_quantity({MotionMeasure::energy_balance}, energy.balance);
 }
 
 void print_energies(const Study& study, const transient::EnergyBudget& energy, std::ostream& out) {

@@ -13,7 +13,6 @@
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
-#include "studies/motion/measurements.hpp"
 #include "studies/motion/one_motion.hpp"
 #include "studies/reading/text/spelling.hpp"
 

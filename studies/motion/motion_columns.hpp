@@ -6,6 +6,8 @@
 
 #include "results/layout.hpp"
 #include "solvers/transient/motion.hpp"
+#include "solvers/transient/motion_quantity.hpp"
+#include "studies/provenance/result_variables.hpp"
 #include "studies/reading/study/study.hpp"
 
 namespace frahm::studies {
@@ -16,17 +18,18 @@ class MotionColumns {
   explicit MotionColumns(const Study& study) : study_(study) {}
 
   // dimension: "" for a single number.  values: padded with NaN to `size`.
-  void add(const std::string& name, std::string_view unit, const std::string& long_name,
-           const std::string& dimension, std::vector<double> values, std::size_t size = 0);
-  void add_number(const std::string& name, std::string_view unit, const std::string& long_name, double value);
+  void add(const Named& named, std::string_view unit, const std::string& dimension,
+           std::vector<double> values, std::size_t size = 0);
+  void add_number(const Named& named, std::string_view unit, double value) { add(named, unit, "", {value}); }
+  // A quantity of the whole motion, as a map of motions has it.
+  void add_quantity(const transient::MotionQuantity& quantity, double value);
 
   // Adds time and, along it, displacement and velocity of each mass and signal, the signal's acceleration
   // too, and each element's dissipated energy.
   void add_samples(const transient::Samples& samples);
 
   // Frequencies [rad/s] in the study's unit of them.
-  void add_frequencies(const std::string& name, const std::string& long_name, const std::string& dimension,
-                       std::vector<double> omega);
+  void add_frequencies(const Named& named, const std::string& dimension, std::vector<double> omega);
 
   std::vector<results::Column> take() { return std::move(columns_); }
 

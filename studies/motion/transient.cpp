@@ -17,7 +17,7 @@
 namespace frahm::studies {
 namespace {
 
-using transient::ForcedMotion, transient::Stop;
+using transient::ForcedMotion, transient::MotionMeasure, transient::Stop;
 
 // The network's values at another frequency, set through its parameter if there is one.
 mechanics::NetworkValues values_at(const Study& study, std::vector<double> parameters, double omega) {
@@ -74,9 +74,8 @@ void add_touches(const Study& study, const ForcedMotion& motion, MotionColumns& 
       onsets.push_back(touch.onset);
       ends.push_back(touch.end);
     }
-    columns.add(name + "_touch", "s", "times from which " + name + " is in contact", "touch", onsets, rows);
-    columns.add(name + "_touch_end", "s", "times at which the contact of " + name + " ends", "touch", ends,
-                rows);
+    columns.add({"*_touch", name}, "s", "touch", onsets, rows);
+    columns.add({"*_touch_end", name}, "s", "touch", ends, rows);
   }
 }
 
@@ -141,31 +140,17 @@ ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) 
   }
 }
 
-// For what takes every mass: [m], or [rad] where all rotate.
-static std::string_view unit_of_all(const Study& study) {
-  std::size_t i = 0;
-  while (mechanics::rotates(study.network, i)) ++i;
-  return i == study.network.masses.size() ? "rad" : "m";
-}
-
 std::vector<results::Column> transient_columns(const Study& study, const ForcedMotion& motion) {
   MotionColumns columns(study);
   columns.add_samples(motion.history);
   add_driving_records(study, columns);
   if (study.transient()->sweep_to) {
-    columns.add_frequencies("frequency", "frequency of the excitation", "time", motion.frequency);
-    columns.add_number(
-        "discretisation_error", unit_of_all(study),
-        "largest change of any displacement when the frequency steps of the run-up were last halved",
-        motion.discretisation_error);
+    columns.add_frequencies("frequency", "time", motion.frequency);
+    columns.add_quantity({MotionMeasure::discretisation_error}, motion.discretisation_error);
   }
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
-    const std::string& name = mechanics::coordinate_name(study.network, i);
-    columns.add_number(name + "_peak", mechanics::coordinate_unit(study.network, i, "m"),
-                       "largest displacement of " + name + ", either way",
-                       std::abs(motion.peaks[i].displacement));
-    columns.add_number(name + "_peak_time", "s", "time of the largest displacement of " + name,
-                       motion.peaks[i].time);
+    columns.add_quantity({MotionMeasure::peak, i}, std::abs(motion.peaks[i].displacement));
+    columns.add_quantity({MotionMeasure::peak_time, i}, motion.peaks[i].time);
   }
   add_energies(study, motion.energy, columns);
   const auto elements = stops_of_elements(study, motion);
@@ -177,8 +162,8 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
       onsets.push_back(stop.onset);
       releases.push_back(stop.release);
     }
-    columns.add(name + "_stop_onset", "s", "times from which " + name + " sticks", "stop", onsets, rows);
-    columns.add(name + "_release", "s", "times at which " + name + " lets go", "stop", releases, rows);
+    columns.add({"*_stop_onset", name}, "s", "stop", onsets, rows);
+    columns.add({"*_release", name}, "s", "stop", releases, rows);
   }
   add_touches(study, motion, columns);
   return columns.take();

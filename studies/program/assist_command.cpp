@@ -5,7 +5,6 @@
 #include "engine/assist.hpp"
 #include "studies/map/known_points.hpp"
 #include "studies/map/map_plan.hpp"
-#include "studies/program/assist_command.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/tuning/tuning_plan.hpp"

@@ -18,7 +18,6 @@
 #include "studies/map/branch_group.hpp"
 #include "studies/map/branch_rows.hpp"
 #include "studies/map/output_quantities.hpp"
-#include "studies/program/branch_command.hpp"
 #include "studies/program/branch_table.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/refusal_advice.hpp"

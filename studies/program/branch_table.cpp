@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "studies/map/output_quantities.hpp"
-#include "studies/program/branch_table.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/reading/study/study_units.hpp"
 

@@ -25,7 +25,6 @@
 #include "studies/motion/one_motion.hpp"
 #include "studies/program/array_job.hpp"
 #include "studies/program/branch_cost.hpp"
-#include "studies/program/check_command.hpp"
 #include "studies/program/check_tuning.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/memory_use.hpp"

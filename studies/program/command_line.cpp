@@ -10,7 +10,6 @@
 
 #include "studies/program/assist_command.hpp"
 #include "studies/program/command_examples.hpp"
-#include "studies/program/command_line.hpp"
 #include "studies/program/completion.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/explain_command.hpp"

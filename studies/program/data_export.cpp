@@ -16,7 +16,6 @@
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/measurements.hpp"
-#include "studies/program/data_export.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/provenance/finished_file.hpp"

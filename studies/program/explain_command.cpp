@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 #include <vector>
 
 #include "solvers/quantities/quantity_table.hpp"
+#include "solvers/transient/motion_quantity.hpp"
 #include "studies/program/exit_code.hpp"
-#include "studies/program/explain_command.hpp"
-#include "studies/program/result_words.hpp"
+#include "studies/provenance/result_variables.hpp"
 #include "studies/reading/keys/element_keys.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/quantities/units.hpp"
@@ -29,7 +30,8 @@ const Meaning exit_codes[] = {
     {"1", "exit code: an internal error of frahm, please report it"},
     {"2", "exit code: wrong usage, or something wrong in the study; the message says what and where"},
     {"3",
-     "exit code: finished, but some points failed or have no periodic response; they are marked in the file"},
+     "exit code: finished, but some points failed or have no periodic response; they are marked in the file. "
+     "check: none of the points tried has a response"},
     {"4", "exit code: stopped, by a signal or the time budget; the same command resumes"},
     {"5",
      "exit code: refused to mix results of different studies; nothing was changed. Use another -o, or "
@@ -37,7 +39,9 @@ const Meaning exit_codes[] = {
     {"6",
      "exit code: a file or stream could not be read or written, a file is in the way of an output, or memory "
      "ran out"},
-    {"7", "exit code: a tuning or fit did not converge; the best so far is in the file"},
+    {"7",
+     "exit code: a tuning or fit did not converge; the best so far is in the file. check: the tuning would "
+     "not"},
     {"8", "exit code: the self-check of frahm verify failed on this machine"},
     {"done", "outcome of a run in Python: exit code 0, done"},
     {"some_failed",
@@ -122,36 +126,60 @@ bool is_numbered(const std::string& word, const std::string& suffix) {
          word.find_first_not_of("0123456789", suffix.size() + 1) == std::string::npos;
 }
 
-// `machine_peak`, `peak` or `MASS_peak`: a quantity by its name's end; of a mode with its number.
-bool names(const std::string& word, const periodic::QuantityRow& row) {
-  const std::string suffix = row.suffix;
-  return word == suffix || is_numbered(word, suffix) || (*name_of(row.owner) && word.ends_with("_" + suffix));
-}
+// A quantity of responses or of motions, for words that name it by the end of a name.
+struct KnownQuantity {
+  std::string_view suffix;
+  std::string owner;  // "MASS"; "" of none
+  std::string text;
 
-std::string text_of(const periodic::QuantityRow& row) {
-  const std::string owner = name_of(row.owner);
-  const std::string name = owner.empty() ? row.suffix : fmt::format("{}_{}", owner, row.suffix);
-  std::string meaning = row.meaning;
+  // `machine_peak`, `peak` or `MASS_peak`; of a mode with its number.
+  bool is_named(const std::string& word) const {
+    return word == suffix || is_numbered(word, std::string(suffix)) ||
+           (!owner.empty() && word.ends_with(fmt::format("_{}", suffix)));
+  }
+};
+
+KnownQuantity known(std::string_view suffix, const std::string& owner, const char* of, std::string_view unit,
+                    std::string meaning) {
+  const std::string name = owner.empty() ? std::string(suffix) : fmt::format("{}_{}", owner, suffix);
   if (const auto place = meaning.find("{}"); place != std::string::npos) meaning.replace(place, 2, owner);
   if (const auto gap = meaning.find("  "); gap != std::string::npos) meaning.erase(gap, 1);  // of no owner
-  std::string text = fmt::format("{}: quantity [{}]: {}", name, row.unit, meaning);
-  for (const periodic::FlagMeaning& flag : row.flags)
-    text += fmt::format("{}{} {}", &flag == row.flags.data() ? ". " : ", ", flag.value, flag.meaning);
-  if (row.derivative == nullptr && *row.why_not_differentiated)
-    text += fmt::format(". No derivative: {}", row.why_not_differentiated);
-  return text;
+  return {suffix, owner, fmt::format("{}: {} [{}]: {}", name, of, unit, meaning)};
 }
 
-// For the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
-std::vector<std::string> quantities_called(const std::string& word) {
+KnownQuantity known(const periodic::QuantityRow& row) {
+  KnownQuantity quantity = known(row.suffix, name_of(row.owner), "quantity", row.unit, row.meaning);
+  for (const periodic::FlagMeaning& flag : row.flags)
+    quantity.text +=
+        fmt::format("{}{} {}", &flag == row.flags.data() ? ". " : ", ", flag.value, flag.meaning);
+  if (row.derivative == nullptr && *row.why_not_differentiated)
+    quantity.text += fmt::format(". No derivative: {}", row.why_not_differentiated);
+  return quantity;
+}
+
+// Those of motions that responses have too are left out.
+std::vector<KnownQuantity> known_quantities() {
+  std::vector<KnownQuantity> all;
+  for (const periodic::QuantityRow& row : periodic::quantity_table()) all.push_back(known(row));
+  const std::size_t of_responses = all.size();
+  for (const transient::MotionQuantityWords& row : transient::motion_quantity_words()) {
+    const auto is_the_same = [&](const KnownQuantity& each) {
+      return each.suffix == row.suffix && each.owner.empty() == row.owner.empty();
+    };
+    if (std::none_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(of_responses), is_the_same))
+      all.push_back(known(row.suffix, std::string(row.owner), "quantity of a motion", row.unit,
+                          std::string(row.meaning)));
+  }
+  return all;
+}
+
+// Of the quantities whose names fit, those with the longest suffix: `energy_share` is no `share`.
+std::vector<KnownQuantity> quantities_called(const std::string& word) {
+  std::vector<KnownQuantity> found = known_quantities();
+  std::erase_if(found, [&](const KnownQuantity& each) { return !each.is_named(word); });
   std::size_t longest = 0;
-  for (const auto& row : periodic::quantity_table()) {
-    if (names(word, row)) longest = std::max(longest, std::string_view(row.suffix).size());
-  }
-  std::vector<std::string> found;
-  for (const auto& row : periodic::quantity_table()) {
-    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(text_of(row));
-  }
+  for (const KnownQuantity& each : found) longest = std::max(longest, each.suffix.size());
+  std::erase_if(found, [&](const KnownQuantity& each) { return each.suffix.size() < longest; });
   return found;
 }
 
@@ -199,11 +227,10 @@ std::string keys_text(const std::string& type) {
   for (const std::string& key : keys_of_type(type)) {
     const bool is_iwan = type == iwan;
     const mechanics::ValueKey* found = nullptr;
-    for (const mechanics::ValueKey* value : {&kind.value, &kind.second, &kind.slope, &kind.cubic}) {
+    for (const mechanics::ValueKey* value : kind.values()) {
       if (!is_iwan && key == value->key) found = value;
     }
-    const bool is_optional =
-        found == &kind.slope || found == &kind.cubic || (found == &kind.second && kind.second_is_optional);
+    const bool is_optional = found && (found->is_optional || found->law);
     text += "\n  " + (found ? text_of(*found, is_optional)
                             : fmt::format("{}: {}", key, meaning_of(study_key("element", key))));
   }
@@ -285,8 +312,8 @@ std::vector<std::string> words_of_studies() {
     for (std::string& word : words_of(each)) words.push_back(std::move(word));
   }
   for (const Meaning& each : flag_words) words.push_back(each.word);
-  for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
-  for (const ResultWord& each : result_words()) words.emplace_back(each.name);
+  for (const KnownQuantity& each : known_quantities()) words.emplace_back(each.suffix);
+  for (const ResultVariable& each : result_variables()) words.emplace_back(each.name);
   for (const Meaning& each : further_meanings) words.push_back(each.word);
   return words;
 }
@@ -295,7 +322,7 @@ std::vector<std::string> words_of_studies() {
 
 int explain_command(const std::string& word, std::ostream& out) {
   std::vector<std::string> found;
-  for (auto* called : {keys_called, types_called, choices_called, quantities_called}) {
+  for (auto* called : {keys_called, types_called, choices_called}) {
     for (std::string& text : called(word)) found.push_back(std::move(text));
   }
   for (const Meaning& each : exit_codes) {
@@ -308,7 +335,12 @@ int explain_command(const std::string& word, std::ostream& out) {
     if (word == each.word) found.push_back(each.text);
   }
   const bool is_known = !found.empty();
-  for (std::string& text : is_known ? result_words_named(word) : result_words_called(word))
+  std::size_t shortest = 0;  // `main_peak_time` is a quantity, not a `*_time`
+  for (const KnownQuantity& quantity : quantities_called(word)) {
+    found.push_back(quantity.text);
+    shortest = std::string_view("*_").size() + quantity.suffix.size();
+  }
+  for (std::string& text : is_known ? result_variables_named(word) : result_variables_called(word, shortest))
     found.push_back(std::move(text));
   // Words of our own come first: UDUNITS has a unit called `force`.
   if (found.empty()) found = units_called(word);

@@ -14,7 +14,6 @@
 #include "studies/identification/identified_study.hpp"
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/program/export_command.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/reading/quantities/unit_words.hpp"

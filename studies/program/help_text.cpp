@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "studies/program/help_text.hpp"
 #include "studies/program/starter_studies.hpp"
 #include "studies/reading/text/spelling.hpp"
 #include "studies/reading/text/study_source.hpp"

@@ -11,7 +11,6 @@
 #include "studies/motion/motion_columns.hpp"
 #include "studies/motion/one_motion.hpp"
 #include "studies/program/exit_code.hpp"
-#include "studies/program/motion_point.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/map/grid_check.hpp"
 #include "studies/reading/settings.hpp"

@@ -5,7 +5,6 @@
 
 #include "engine/io_error.hpp"
 #include "studies/program/exit_code.hpp"
-#include "studies/program/new_command.hpp"
 #include "studies/program/starter_studies.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/text/spelling.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "studies/program/option_values.hpp"
 #include "studies/reading/text/spelling.hpp"
 #include "studies/reading/text/study_source.hpp"
 

@@ -15,7 +15,6 @@
 #include "results/report/report_page.hpp"
 #include "studies/program/external_program.hpp"
 #include "studies/program/figure_mark.hpp"
-#include "studies/program/paper_figures.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/text/study_source.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "studies/program/plain_output.hpp"
 #include "studies/reading/text/plain_text.hpp"
 
 namespace frahm::studies {

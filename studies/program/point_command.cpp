@@ -6,7 +6,6 @@
 
 #include "studies/program/exit_code.hpp"
 #include "studies/program/motion_point.hpp"
-#include "studies/program/point_command.hpp"
 #include "studies/program/point_report.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/map/grid_check.hpp"

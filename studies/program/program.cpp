@@ -19,7 +19,6 @@
 #include "studies/program/command_line.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/plain_output.hpp"
-#include "studies/program/program.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/reading/text/study_source.hpp"
 

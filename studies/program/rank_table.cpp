@@ -5,7 +5,6 @@
 
 #include "engine/progress.hpp"
 #include "engine/team.hpp"
-#include "studies/program/rank_table.hpp"
 #include "studies/reading/text/study_source.hpp"
 
 namespace frahm::studies {

@@ -11,7 +11,6 @@
 
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/transient/record_facts.hpp"
-#include "studies/program/record_table.hpp"
 #include "studies/reading/quantities/units.hpp"
 
 namespace frahm::studies {

@@ -7,7 +7,6 @@
 #include "results/report/page_data.hpp"
 #include "results/report/report_page.hpp"
 #include "studies/program/paper_figures.hpp"
-#include "studies/program/report_command.hpp"
 #include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/provenance/finished_file.hpp"

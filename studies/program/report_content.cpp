@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "solvers/transient/motion_quantity.hpp"
-#include "studies/program/report_content.hpp"
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
 #include "studies/provenance/stored_study.hpp"

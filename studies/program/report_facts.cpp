@@ -12,7 +12,6 @@
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/one_motion.hpp"
-#include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
 #include "studies/reading/study/study_units.hpp"
 #include "studies/tuning/optimum_columns.hpp"

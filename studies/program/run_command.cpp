@@ -4,7 +4,6 @@
 
 #include "engine/stop_signals.hpp"
 #include "studies/program/run_at_once.hpp"
-#include "studies/program/run_command.hpp"
 #include "studies/program/run_map.hpp"
 #include "studies/program/run_tuning.hpp"
 #include "studies/reading/settings.hpp"

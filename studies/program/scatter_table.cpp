@@ -13,7 +13,6 @@
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/map_chunks.hpp"
 #include "studies/map/output_quantities.hpp"
-#include "studies/program/scatter_table.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
 #include "studies/reading/text/decimal_digits.hpp"
 

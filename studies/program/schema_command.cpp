@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "studies/program/exit_code.hpp"
-#include "studies/program/schema_command.hpp"
 #include "studies/reading/keys/element_keys.hpp"
 #include "studies/reading/keys/key_groups.hpp"
 #include "studies/reading/keys/study_keys.hpp"

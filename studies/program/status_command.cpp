@@ -13,7 +13,6 @@
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
-#include "studies/program/status_command.hpp"
 #include "studies/provenance/fingerprint.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance_checksum.hpp"

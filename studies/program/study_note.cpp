@@ -15,7 +15,6 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/part_file.hpp"
-#include "studies/program/study_note.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/assignment.hpp"

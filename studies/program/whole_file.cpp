@@ -15,7 +15,6 @@
 #include "engine/output_lock.hpp"
 #include "results/part_file.hpp"
 #include "studies/program/figure_mark.hpp"
-#include "studies/program/whole_file.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/reading/text/readable_file.hpp"
 #include "studies/reading/text/study_source.hpp"

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <utility>
 
-#include "studies/provenance/document_changes.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/quantities/units.hpp"

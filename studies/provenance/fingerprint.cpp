@@ -9,7 +9,6 @@
 
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/rotation.hpp"
-#include "studies/provenance/fingerprint.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 
 namespace frahm::studies {

@@ -11,7 +11,6 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/store_error.hpp"
-#include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance_checksum.hpp"
 #include "studies/reading/text/study_source.hpp"
 

@@ -2,7 +2,6 @@
 
 #include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance_checksum.hpp"
-#include "studies/provenance/stored_study.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/assignment.hpp"
 

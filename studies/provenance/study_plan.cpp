@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "studies/provenance/fingerprint.hpp"
-#include "studies/provenance/study_plan.hpp"
 #include "studies/reading/study/assignment.hpp"
 
 namespace frahm::studies {

@@ -11,7 +11,6 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/python/response_rows.hpp"
 #include "studies/reading/text/name_pattern.hpp"
 
 namespace frahm::studies {

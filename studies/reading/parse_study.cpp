@@ -21,7 +21,6 @@
 #include "studies/reading/map/orbits_reading.hpp"
 #include "studies/reading/map/output_reading.hpp"
 #include "studies/reading/map/record_axis.hpp"
-#include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/dimension_check.hpp"
 #include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/study/study_context.hpp"
@@ -117,19 +116,13 @@ void read_heading(const TomlValue& root, Study& study) {
   study.dimensionless = section.choice("units") == "dimensionless";
 }
 
-// The parameters that the masses, elements and the damping of the structure read.
+// The parameters that the system reads, compared with another law too.
 std::vector<std::size_t> read_by_matrices(const Study& study) {
-  std::vector<std::size_t> reads;
-  const auto add = [&](const StudyValue& value) {
-    reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
-  };
-  for (const auto* values :
-       {&study.values.mass, &study.values.element, &study.values.second, &study.values.slope,
-        &study.values.cubic, &study.values.damping, &study.values.points}) {
-    for (const StudyValue& value : *values) add(value);
+  std::vector<std::size_t> reads = study.values.read_by_system(study.network);
+  if (study.sweep()->comparison) {
+    const std::vector<std::size_t>& of_slope = study.sweep()->comparison->slope.expression.reads();
+    reads.insert(reads.end(), of_slope.begin(), of_slope.end());
   }
-  if (mechanics::frequency_dependent_element(study.network)) add(study.values.omega);
-  if (study.sweep()->comparison) add(study.sweep()->comparison->slope);
   return reads;
 }
 
@@ -143,9 +136,9 @@ void check_motion_without_axes(const Study& study, const TomlValue& root) {
     if (entry.key == "output" && entry.value.as<TomlTable>())
       check_output_has_signals_alone(study, entry, why + way);
     if (entry.key == "coordinate" || entry.key == "report")
-      throw study.source.error_at(rules::other_kind, entry.position, "the section \"{}\" is not part of {}{}",
-                                  entry.key, kind_noun(study.kind()),
-                                  why + (entry.key == "report" ? way : ""));
+      throw study.source.error_at(rules::beyond_schema(rules::other_kind), entry.position,
+                                  "the section \"{}\" is not part of {}{}", entry.key,
+                                  kind_noun(study.kind()), why + (entry.key == "report" ? way : ""));
   }
 }
 

@@ -33,21 +33,18 @@ double range_flag(const ColumnChoice& column, double value) {
 }
 
 void add_worst(const TuningAbout& about, const tuning::Curve& curve, GroupColumns& columns) {
-  const char* what =
-      about.tune.objective == tuning::Objective::minimax ? "true maximum of the response" : "objective";
-  columns.add_number("worst_" + curve.name, objective_unit(about.study),
-                     fmt::format("{}, {}", what, curve.name), curve.worst);
+  columns.add_number({"worst_" + curve.name, {}, {}}, objective_unit(about.study), curve.worst);
 }
 
 void add_curves(const TuningAbout& about, GroupColumns& columns) {
   const auto names = scenario_names(about.study);
   for (const tuning::Curve& curve : about.result.assessment.curves) {
     for (std::size_t s = 0; s < std::min(names.size(), curve.value.size()); ++s) {
-      const std::string of = about.tune.scenarios.empty() ? "" : "_" + names[s];
-      columns.add("response_" + curve.name + of, quantity_unit(about.study),
-                  fmt::format("weighted {}, {}{}", about.tune.quantity_name, curve.name,
-                              of.empty() ? "" : ", scenario " + names[s]),
-                  about.band, curve.value[s]);
+      const bool is_sole = about.tune.scenarios.empty();
+      columns.add({fmt::format("response_{}*", curve.name),
+                   {is_sole ? "" : "_" + names[s]},
+                   {about.tune.quantity_name, is_sole ? "" : ", scenario " + names[s]}},
+                  quantity_unit(about.study), about.band, curve.value[s]);
     }
     add_worst(about, curve, columns);
   }
@@ -64,27 +61,23 @@ void add_schedules(const TuningAbout& about, GroupColumns& columns) {
       schedule.push_back(value_at(design[i], place) / choice.unit.si_factor);
       if (rules[i]) rule.push_back(rules[i](place) / choice.unit.si_factor);
     }
-    columns.add(name + "_schedule", unit, "schedule of " + name, about.band, schedule);
-    if (rules[i])
-      columns.add(name + "_rule", unit, name + " by the rule for the schedule, within the bounds", about.band,
-                  rule);
+    columns.add({"*_schedule", name}, unit, about.band, schedule);
+    if (rules[i]) columns.add({"*_rule", name}, unit, about.band, rule);
   }
 }
 
 void add_column(const TuningAbout& about, const ColumnChoice& column, GroupColumns& columns) {
   std::vector<double> values = along_band(about, of_formula(column.value));
   for (double& value : values) value /= column.si_factor;
-  columns.add(column.name, column.unit, "with the schedule: " + column.name, about.band, values);
+  columns.add(Named::by_study(column.name, "with the schedule: " + column.name), column.unit, about.band,
+              values);
   std::vector<double> flags;
   for (const double value : values) flags.push_back(range_flag(column, value));
-  columns.add_flag(column.name + "_range", "whether " + column.name + " is within its range", about.band,
-                   {"within", "below", "above"}, flags);
+  columns.add_flag({"*_range", column.name}, about.band, {"within", "below", "above"}, flags);
   if (std::isfinite(column.lower))
-    columns.add_number(column.name + "_range_lower", column.unit, "lower end of the range of " + column.name,
-                       column.lower);
+    columns.add_number({"*_range_lower", column.name}, column.unit, column.lower);
   if (std::isfinite(column.upper))
-    columns.add_number(column.name + "_range_upper", column.unit, "upper end of the range of " + column.name,
-                       column.upper);
+    columns.add_number({"*_range_upper", column.name}, column.unit, column.upper);
 }
 
 }  // namespace
@@ -96,12 +89,11 @@ void add_band(const TuningAbout& about, GroupColumns& columns) {
   }
   std::vector<double> places;
   for (const double place : about.result.assessment.band) places.push_back(about.spoken_band(place));
-  columns.add(about.band, about.band_unit, "band of the tuning", about.band, places);
-  columns.add("excitation_frequency", about.study.dimensionless ? "1" : "rad s-1", "excitation frequency",
-              about.band, along_band(about, of_formula(about.study.values.omega)));
+  columns.add(Named::by_study(about.band, "band of the tuning"), about.band_unit, about.band, places);
+  columns.add("excitation_frequency", about.study.dimensionless ? "1" : "rad s-1", about.band,
+              along_band(about, of_formula(about.study.values.omega)));
   if (about.tune.weight)
-    columns.add("weight", "1", "factor on the response", about.band,
-                along_band(about, of_formula(*about.tune.weight)));
+    columns.add("weight", "1", about.band, along_band(about, of_formula(*about.tune.weight)));
   add_curves(about, columns);
   add_schedules(about, columns);
   for (const ColumnChoice& column : about.tune.columns) add_column(about, column, columns);

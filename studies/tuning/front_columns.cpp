@@ -9,14 +9,10 @@ void add_front_ends(const TuningAbout& about, GroupColumns& columns) {
   const tuning::FrontEnds& ends = about.optimum.ends;
   const double factor = trade_off.unit.si_factor;
   const std::string objective = objective_unit(about.study);
-  columns.add_number("least_trade_off", trade_off.unit.text, "least " + trade_off.name + " found",
-                     ends.least / factor);
-  columns.add_number("objective_at_least", objective, "objective under a limit 0.01 % above that",
-                     ends.objective_at_least);
-  columns.add_number("most_trade_off", trade_off.unit.text,
-                     trade_off.name + " of the optimum without a limit: higher limits gain nothing",
-                     ends.most / factor);
-  columns.add_number("objective_at_most", objective, "objective of that optimum", ends.objective_at_most);
+  columns.add_number({"least_trade_off", {}, {trade_off.name}}, trade_off.unit.text, ends.least / factor);
+  columns.add_number("objective_at_least", objective, ends.objective_at_least);
+  columns.add_number({"most_trade_off", {}, {trade_off.name}}, trade_off.unit.text, ends.most / factor);
+  columns.add_number("objective_at_most", objective, ends.objective_at_most);
 }
 
 }  // namespace
@@ -41,18 +37,19 @@ std::vector<results::Column> front_columns(const Study& study, const TuningResul
     starts.push_back(static_cast<double>(result.starts[result.best[i]].number));
     dominated.push_back(is_dominated(result, i) ? 2.0 : 1.0);
   }
-  columns.add("trade_off", trade_off.unit.text, "limit of " + trade_off.name, "trade_off", limits);
-  columns.add("objective", objective_unit(study), "objective of the optimum under that limit", "trade_off",
-              objectives);
-  columns.add("certificate_gap", "1", "(objective - bound) / objective", "trade_off", gaps);
-  columns.add("kkt_residual", "1", "residual of the conditions of a local optimum", "trade_off", residuals);
-  columns.add("violation", "1", "largest violation of a limit, relative", "trade_off", violations);
-  columns.add_flag("outcome", "how the tuning ended", "trade_off", outcome_words(), outcome_flags(outcomes));
-  columns.add_count("best_start", "the start that this was found from", "trade_off", starts);
-  columns.add_flag("dominated", "whether a lower limit has an objective no higher", "trade_off",
-                   {"no", "yes"}, dominated);
+  columns.add({"trade_off", {}, {trade_off.name}}, trade_off.unit.text, "trade_off", limits);
+  columns.add("objective", objective_unit(study), "trade_off", objectives);
+  columns.add("certificate_gap", "1", "trade_off", gaps);
+  columns.add("kkt_residual", "1", "trade_off", residuals);
+  columns.add("violation", "1", "trade_off", violations);
+  columns.add_flag("outcome", "trade_off", outcome_words(), outcome_flags(outcomes));
+  columns.add_count("best_start", "trade_off", starts);
+  columns.add_flag("dominated", "trade_off", {"no", "yes"}, dominated);
   add_front_ends(about, columns);
-  add_designs(about, "", "under that limit", "trade_off", optima, columns);
+  const NamedKnot under_limit = [](const std::string& knot, const std::string& what) {
+    return Named::by_study(knot, what + " under that limit");
+  };
+  add_designs(about, under_limit, "trade_off", optima, columns);
   return columns.take();
 }
 

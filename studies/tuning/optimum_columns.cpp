@@ -24,41 +24,25 @@ using tuning::Optimum;
 
 void add_numbers(const TuningAbout& about, GroupColumns& columns) {
   const std::string unit = objective_unit(about.study);
-  columns.add_number("objective", unit, "objective of the optimum, over the whole band",
-                     about.optimum.objective);
-  if (about.tune.has_schedule())
-    columns.add_number("constant_objective", unit, "objective of the best constant design",
-                       about.optimum.constant_objective);
-  if (about.tune.has_schedule())
-    columns.add_number(
-        "path_bound", unit,
-        "lower bound on the worst peak of every schedule with these constants, as far as a grid shows",
-        about.optimum.path_bound);
-  columns.add_number("certificate_gap", "1",
-                     "(objective - bound) / objective: how far the worst peak over the band exceeds the "
-                     "bound from the active frequencies",
-                     about.optimum.certificate_gap);
+  columns.add_number("objective", unit, about.optimum.objective);
+  if (about.tune.has_schedule()) {
+    columns.add_number("constant_objective", unit, about.optimum.constant_objective);
+    columns.add_number("path_bound", unit, about.optimum.path_bound);
+  }
+  columns.add_number("certificate_gap", "1", about.optimum.certificate_gap);
   if (const auto width = about.least_width_seen())
-    columns.add_number("certificate_width", about.band_unit,
-                       "width along the band; the certificate may miss a peak that is narrower", *width);
-  columns.add_number("kkt_residual", "1", "residual of the conditions of a local optimum",
-                     about.optimum.kkt_residual);
-  columns.add_number("tolerance", "1", "tolerance of the certificate gap and the KKT residual",
-                     about.tune.tolerance);
-  columns.add_number("violation", "1", "largest violation of a limit, relative", about.optimum.violation);
-  columns.add_flag("outcome", "how the tuning ended", "", outcome_words(),
-                   outcome_flags({about.optimum.outcome}));
-  if (about.tune.trade_off)
-    columns.add_number("trade_off", about.tune.trade_off->unit.text,
-                       "limit of " + about.tune.trade_off->name + " that this is the optimum of",
-                       about.optimum.trade_off / about.tune.trade_off->unit.si_factor);
-  columns.add_count("iterations", "iterations of the optimiser", "",
-                    {static_cast<double>(about.optimum.iterations)});
-  columns.add("orbits", "1", "number of periodic responses that it took", "",
-              {static_cast<double>(about.optimum.orbits)}, Type::int64);
-  columns.add("gradients", "1", "number of derivatives of responses that it took", "",
-              {static_cast<double>(about.optimum.gradients)}, Type::int64);
-  columns.add_count("best_start", "the start that this was found from", "",
+    columns.add_number("certificate_width", about.band_unit, *width);
+  columns.add_number("kkt_residual", "1", about.optimum.kkt_residual);
+  columns.add_number("tolerance", "1", about.tune.tolerance);
+  columns.add_number("violation", "1", about.optimum.violation);
+  columns.add_flag("outcome", "", outcome_words(), outcome_flags({about.optimum.outcome}));
+  if (const auto& trade_off = about.tune.trade_off)
+    columns.add_number({"trade_off", {}, {trade_off->name}}, trade_off->unit.text,
+                       about.optimum.trade_off / trade_off->unit.si_factor);
+  columns.add_count("iterations", "", {static_cast<double>(about.optimum.iterations)});
+  columns.add("orbits", "1", "", {static_cast<double>(about.optimum.orbits)}, Type::int64);
+  columns.add("gradients", "1", "", {static_cast<double>(about.optimum.gradients)}, Type::int64);
+  columns.add_count("best_start", "",
                     {static_cast<double>(about.result.starts[about.result.best.back()].number)});
 }
 
@@ -80,39 +64,33 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
     for (const double knot : tuned.knots.empty() ? choice.knots : tuned.knots)
       knots.push_back(about.spoken_band(knot));
     knots.resize(size, kNone);
-    columns.add(along, about.band_unit, "knots of the schedule of " + name, along, knots);
+    columns.add({"knots_*", name}, about.band_unit, along, knots);
   }
-  columns.add(name, unit, "optimum of the parameter " + name, along, spoken(tuned.value, 1.0 / factor));
+  columns.add(Named::by_study(name, "optimum of the parameter " + name), unit, along,
+              spoken(tuned.value, 1.0 / factor));
   if (choice.may_leap) {
     const Jump jump = jump_of(choice, {tuned.value, tuned.knots}).value_or(Jump{kNone, kNone, kNone});
-    columns.add_number(name + "_jump_at", about.band_unit, about.band + " at which the schedule jumps",
-                       about.spoken_band(jump.at));
-    columns.add_number(name + "_jump_from", unit, name + " below the jump", jump.from / factor);
-    columns.add_number(name + "_jump_to", unit, name + " above the jump", jump.to / factor);
+    columns.add_number({"*_jump_at", name}, about.band_unit, about.spoken_band(jump.at));
+    columns.add_number({"*_jump_from", name}, unit, jump.from / factor);
+    columns.add_number({"*_jump_to", name}, unit, jump.to / factor);
   }
-  columns.add_number(name + "_lower", unit, "lower bound of " + name, choice.lower / factor);
-  columns.add_number(name + "_upper", unit, "upper bound of " + name, choice.upper / factor);
+  columns.add_number({"*_lower", name}, unit, choice.lower / factor);
+  columns.add_number({"*_upper", name}, unit, choice.upper / factor);
   const double nominal = about.study.parameters.nominal()[choice.parameter];
-  columns.add_number(name + "_before", unit, name + " as the study states it", nominal / factor);
+  columns.add_number({"*_before", name}, unit, nominal / factor);
   if (std::isfinite(choice.max_slope))
-    columns.add_number(name + "_max_slope", per_unit(unit, about.band_unit),
-                       "largest slope that the schedule of " + name + " may have, up or down",
+    columns.add_number({"*_max_slope", name}, per_unit(unit, about.band_unit),
                        choice.max_slope * about.tune.band->unit.si_factor / factor);
   std::vector<double> at_bound;  // flags from 1
   for (const tuning::AtBound end : tuned.at_bound) at_bound.push_back(1.0 + static_cast<double>(end));
   at_bound.resize(size, 0.0);
-  columns.add_flag(name + "_at_bound", "whether " + name + " lies on a bound", along,
-                   {"no", "lower", "upper"}, at_bound);
+  columns.add_flag({"*_at_bound", name}, along, {"no", "lower", "upper"}, at_bound);
   const std::string price = per_unit(objective_unit(about.study), unit);
-  columns.add(name + "_lower_multiplier", price,
-              "fall of the objective per unit by which the lower bound of " + name + " is moved down", along,
-              spoken(tuned.lower_multiplier, factor));
-  columns.add(name + "_upper_multiplier", price,
-              "fall of the objective per unit by which the upper bound of " + name + " is moved up", along,
-              spoken(tuned.upper_multiplier, factor));
+  columns.add({"*_lower_multiplier", name}, price, along, spoken(tuned.lower_multiplier, factor));
+  columns.add({"*_upper_multiplier", name}, price, along, spoken(tuned.upper_multiplier, factor));
   if (!about.tune.has_schedule()) return;
   const double constant = i < about.optimum.constant.size() ? about.optimum.constant[i] : kNone;
-  columns.add_number(name + "_constant", unit, name + " of the best constant design", constant / factor);
+  columns.add_number({"*_constant", name}, unit, constant / factor);
 }
 
 // For a tuning over records: which record each peak is of, and what it was before.
@@ -122,9 +100,8 @@ void add_records_of_peaks(const TuningAbout& about, GroupColumns& columns) {
     records.push_back(static_cast<double>(about.optimum.peaks[i].record));
     before.push_back(i < about.result.before.size() ? about.result.before[i].value : kNone);
   }
-  columns.add_count("peak_record", "record, from 0", "peak", records);
-  columns.add("peak_before", quantity_unit(about.study), "peak of the design that the study states", "peak",
-              before);
+  columns.add_count("peak_record", "peak", records);
+  columns.add("peak_before", quantity_unit(about.study), "peak", before);
 }
 
 void add_peaks(const TuningAbout& about, GroupColumns& columns) {
@@ -137,19 +114,17 @@ void add_peaks(const TuningAbout& about, GroupColumns& columns) {
   }
   if (at.empty()) return;
   const std::string unit = quantity_unit(about.study);
-  columns.add("peak_" + about.band, about.band_unit, about.band + " of the local maxima of the response",
-              "peak", at);
+  columns.add({"peak_*", about.band}, about.band_unit, "peak", at);
   if (about.tune.peaks) add_records_of_peaks(about, columns);
-  columns.add("peak_value", unit, "weighted response there", "peak", values);
-  columns.add_count("peak_scenario", "scenario, from 0", "peak", scenarios);
-  columns.add("peak_multiplier", "1", "share of the maximum in determining the optimum", "peak", multipliers);
+  columns.add("peak_value", unit, "peak", values);
+  columns.add_count("peak_scenario", "peak", scenarios);
+  columns.add("peak_multiplier", "1", "peak", multipliers);
   for (std::size_t i = 0; i < about.designs.size(); ++i) {
     const double factor = about.designs[i].choice.unit.si_factor;
     std::vector<double> slopes;
     for (const tuning::Peak& peak : about.optimum.peaks)
       slopes.push_back(i < peak.sensitivity.size() ? peak.sensitivity[i] * factor : kNone);
-    columns.add(about.designs[i].name + "_sensitivity", per_unit(unit, about.designs[i].unit),
-                "derivative of the maximum with respect to " + about.designs[i].name + " as a whole", "peak",
+    columns.add({"*_sensitivity", about.designs[i].name}, per_unit(unit, about.designs[i].unit), "peak",
                 slopes);
   }
 }
@@ -162,21 +137,13 @@ void add_limits(const TuningAbout& about, GroupColumns& columns) {
     const std::string unit = usual.text;
     const bool known = i < about.optimum.limits.size();
     const tuning::LimitState state = known ? about.optimum.limits[i] : tuning::LimitState{};
-    columns.add_number(name + "_limited", unit, name + " where it is nearest to its limit",
-                       known ? state.value / factor : kNone);
-    columns.add_number(name + "_lower_limit", unit, "lower limit of " + name,
-                       std::isfinite(lower) ? lower / factor : kNone);
-    columns.add_number(name + "_upper_limit", unit, "upper limit of " + name,
-                       std::isfinite(upper) ? upper / factor : kNone);
-    columns.add_number(name + "_limited_at", about.band_unit, about.band + " there",
-                       known ? about.spoken_band(state.at) : kNone);
-    columns.add_count(name + "_limited_scenario", "scenario there, from 0", "",
-                      {known ? static_cast<double>(state.scenario) : -1.0});
-    columns.add_number(name + "_limit_excess", "1",
-                       name + " over its limit, relative to the limit; 0 where the limit is met",
-                       known ? state.excess : kNone);
-    columns.add_number(name + "_limit_multiplier", per_unit(objective_unit(about.study), unit),
-                       "fall of the objective per unit by which the limit is relaxed",
+    columns.add_number({"*_limited", name}, unit, known ? state.value / factor : kNone);
+    columns.add_number({"*_lower_limit", name}, unit, std::isfinite(lower) ? lower / factor : kNone);
+    columns.add_number({"*_upper_limit", name}, unit, std::isfinite(upper) ? upper / factor : kNone);
+    columns.add_number({"*_limited_at", name}, about.band_unit, known ? about.spoken_band(state.at) : kNone);
+    columns.add_count({"*_limited_scenario", name}, "", {known ? static_cast<double>(state.scenario) : -1.0});
+    columns.add_number({"*_limit_excess", name}, "1", known ? state.excess : kNone);
+    columns.add_number({"*_limit_multiplier", name}, per_unit(objective_unit(about.study), unit),
                        known ? state.multiplier * factor : kNone);
   }
 }
@@ -184,23 +151,17 @@ void add_limits(const TuningAbout& about, GroupColumns& columns) {
 void add_detuning(const TuningAbout& about, GroupColumns& columns) {
   const tuning::Detuning& detuning = about.result.assessment.detuning;
   if (detuning.change.empty()) return;
-  columns.add("change", "1", "relative change of one parameter", "change", detuning.change);
+  columns.add("change", "1", "change", detuning.change);
   for (std::size_t i = 0; i < about.designs.size() && i < detuning.growth.size(); ++i)
-    columns.add(about.designs[i].name + "_detuning", "1",
-                "objective with " + about.designs[i].name + " so changed over that of the optimum, less 1",
-                "change", detuning.growth[i]);
+    columns.add({"*_detuning", about.designs[i].name}, "1", "change", detuning.growth[i]);
 }
 
 void add_search(const TuningAbout& about, GroupColumns& columns) {
   if (not_proved(about.study).empty()) return;
   const tuning::SearchedPoints& searched = about.result.assessment.searched;
-  const auto add = [&](const char* name, const char* what, std::size_t count) {
-    columns.add_count(name, what, "", {static_cast<double>(count)});
-  };
-  add("searched_points", "points of the band at the optimum, in all scenarios", searched.points);
-  add("several_points", "number of these points with more than one stable response found", searched.several);
-  add("not_periodic_points", "number of these points where no stable periodic response was found",
-      searched.not_periodic);
+  columns.add_count("searched_points", "", {static_cast<double>(searched.points)});
+  columns.add_count("several_points", "", {static_cast<double>(searched.several)});
+  columns.add_count("not_periodic_points", "", {static_cast<double>(searched.not_periodic)});
 }
 
 void add_rounds(const TuningAbout& about, GroupColumns& columns) {
@@ -214,11 +175,11 @@ void add_rounds(const TuningAbout& about, GroupColumns& columns) {
   }
   if (active.empty()) return;
   const std::string unit = objective_unit(about.study);
-  columns.add_count("round_active", "active frequencies of a round", "round", active);
-  columns.add_count("round_iterations", "iterations of a round", "round", iterations);
-  columns.add("round_bound", unit, "objective over the active frequencies", "round", bound);
-  columns.add("round_worst", unit, "true objective of that design", "round", worst);
-  columns.add("round_violation", "1", "violation of the limits, relative", "round", violation);
+  columns.add_count("round_active", "round", active);
+  columns.add_count("round_iterations", "round", iterations);
+  columns.add("round_bound", unit, "round", bound);
+  columns.add("round_worst", unit, "round", worst);
+  columns.add("round_violation", "1", "round", violation);
 }
 
 void add_starts(const TuningAbout& about, GroupColumns& columns) {
@@ -231,33 +192,31 @@ void add_starts(const TuningAbout& about, GroupColumns& columns) {
     residuals.push_back(start.optima[limit].kkt_residual);
     outcomes.push_back(start.optima[limit].outcome);
   }
-  columns.add_count("start", "number of the start, from 0", "start", numbers);
-  columns.add("start_objective", objective_unit(about.study), "objective found from a start", "start",
-              objectives);
-  columns.add("start_kkt_residual", "1", "residual of the conditions of a local optimum", "start", residuals);
-  columns.add_flag("start_outcome", "how the start ended", "start", outcome_words(), outcome_flags(outcomes));
+  columns.add_count("start", "start", numbers);
+  columns.add("start_objective", objective_unit(about.study), "start", objectives);
+  columns.add("start_kkt_residual", "1", "start", residuals);
+  columns.add_flag("start_outcome", "start", outcome_words(), outcome_flags(outcomes));
   std::vector<const Optimum*> optima;
   for (const StartResult& start : about.result.starts) optima.push_back(&start.optima[limit]);
-  add_designs(about, "start_", "found from a start", "start", optima, columns);
+  const NamedKnot of_start = [](const std::string& knot, const std::string& what) {
+    return Named("start_*", {knot}, {what});
+  };
+  add_designs(about, of_start, "start", optima, columns);
 }
 
 // For a tuning that began at a map: what of the box it saw, and what its low cells led to.
 void add_map(const TuningAbout& about, GroupColumns& columns) {
   const tuning::DesignsSeen& seen = about.optimum.seen;
   if (seen.cells == 0) return;
-  columns.add_count("map_cells", "designs of the map, each for an equal share of the box", "",
-                    {static_cast<double>(seen.cells)});
-  columns.add_number("map_share", "1", "share of the box whose designs have a response", seen.share);
-  columns.add("map_objective", objective_unit(about.study),
-              "objective of the best constants from each low cell; NaN where they break a limit", "map_place",
-              seen.polished);
+  columns.add_count("map_cells", "", {static_cast<double>(seen.cells)});
+  columns.add_number("map_share", "1", seen.share);
+  columns.add("map_objective", objective_unit(about.study), "map_place", seen.polished);
 }
 
 }  // namespace
 
-void add_designs(const TuningAbout& about, const std::string& prefix, const std::string& what,
-                 const std::string& dimension, const std::vector<const Optimum*>& optima,
-                 GroupColumns& columns) {
+void add_designs(const TuningAbout& about, const NamedKnot& named, const std::string& dimension,
+                 const std::vector<const Optimum*>& optima, GroupColumns& columns) {
   for (std::size_t i = 0; i < about.designs.size(); ++i) {
     const auto& [choice, name, unit] = about.designs[i];
     const std::size_t size = choice.count();
@@ -267,10 +226,10 @@ void add_designs(const TuningAbout& about, const std::string& prefix, const std:
         values.push_back(has_design(about.study, *optimum)
                              ? optimum->parameters[i].value[k] / choice.unit.si_factor
                              : kNone);
-      const std::string knot = choice.is_scheduled() ? fmt::format("_{}", k) : "";
-      columns.add(prefix + name + knot, unit,
-                  fmt::format("{}{} {}", name, knot.empty() ? "" : fmt::format(" at knot {}", k), what),
-                  dimension, values);
+      const bool has_knots = choice.is_scheduled();
+      columns.add(named(has_knots ? fmt::format("{}_{}", name, k) : name,
+                        has_knots ? fmt::format("{} at knot {}", name, k) : name),
+                  unit, dimension, values);
     }
   }
 }

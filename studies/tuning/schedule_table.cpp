@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "studies/reading/quantities/unit_words.hpp"
-#include "studies/tuning/schedule_table.hpp"
 
 namespace frahm::studies {
 namespace {

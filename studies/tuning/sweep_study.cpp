@@ -13,7 +13,6 @@
 #include "studies/reading/text/decimal_digits.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 #include "studies/reading/text/toml_writing.hpp"
-#include "studies/tuning/sweep_study.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,10 +44,10 @@ TuningResult example_of(const Study& study);
 // the designs compared, which a variance has even without a band.
 void add_band(const TuningAbout& about, GroupColumns& columns);
 
-// Every design parameter of several optima, a column for each knot of a schedule. prefix: of the names;
-// what: for the long names.
-void add_designs(const TuningAbout& about, const std::string& prefix, const std::string& what,
-                 const std::string& dimension, const std::vector<const tuning::Optimum*>& optima,
-                 GroupColumns& columns);
+// Every design parameter of several optima, a column for each knot of a schedule. named: of "k2_0" and
+// "k2 at knot 0".
+using NamedKnot = std::function<Named(const std::string& knot, const std::string& words)>;
+void add_designs(const TuningAbout& about, const NamedKnot& named, const std::string& dimension,
+                 const std::vector<const tuning::Optimum*>& optima, GroupColumns& columns);
 
 }  // namespace frahm::studies

@@ -13,7 +13,6 @@
 #include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
-#include "studies/tuning/tuning_table.hpp"
 
 namespace frahm::studies {
 namespace {

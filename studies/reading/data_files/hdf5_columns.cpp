@@ -47,13 +47,14 @@ void check_datasets(const ColumnReading& reading, const std::vector<double>& dou
   const RawColumn& first = record.columns.front();
   for (const RawColumn& column : record.columns) {
     if (column.values.size() != first.values.size())
-      reading.fail_at_file(
-          rules::wrong_length, "{}: {} has {} values, but {} has {}; columns must have the same length",
-          record.file, column.called, column.values.size(), first.called, first.values.size());
+      reading.fail_at_file(rules::beyond_schema(rules::wrong_length),
+                           "{}: {} has {} values, but {} has {}; columns must have the same length",
+                           record.file, column.called, column.values.size(), first.called,
+                           first.values.size());
   }
   if (!doubtful.empty() && doubtful.size() != first.values.size())
     reading.fail_at_file(
-        rules::wrong_length,
+        rules::beyond_schema(rules::wrong_length),
         "{}: {} has {} values, but the marks of doubtful rows have {}; columns must have the same length",
         record.file, first.called, first.values.size(), doubtful.size());
 }
@@ -73,7 +74,7 @@ void check_path(const ColumnReading& reading, const WantedColumn& column) {
     reading.fail(rules::unknown_column, column.position,
                  "columns: label: labels are read from CSV files only");
   if (column.number)
-    reading.fail(rules::wrong_type, column.position,
+    reading.fail(rules::beyond_schema(rules::wrong_type), column.position,
                  "{}: expected the path of a dataset, such as \"transient/time\", found the number {}",
                  column.where(), *column.number);
 }
@@ -83,7 +84,7 @@ void check_path(const ColumnReading& reading, const WantedColumn& column) {
 RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path) {
   reading.result.has_lines = false;
   if (reading.wanted.empty() && !reading.record.find("columns"))
-    reading.record.fail_here(rules::missing_key,
+    reading.record.fail_here(rules::beyond_schema(rules::missing_key),
                              "the key \"columns\" is missing: for an HDF5 file it names the datasets, such "
                              "as columns = {{ time = \"transient/time\" }}");
   const std::vector<WantedColumn> wanted =

@@ -63,13 +63,13 @@ const RecordForm& form_of_wanted(const TomlSection& record, const std::vector<Re
   const RecordForm& form = form_of(forms, names);
   for (const Role& role : form.roles) {
     if (!role.required || std::find(names.begin(), names.end(), role.name) != names.end()) continue;
-    record.fail(rules::missing_key, "columns", "\"{}\" is missing; the columns are {}", role.name,
-                described(form));
+    record.fail(rules::beyond_schema(rules::missing_key), "columns", "\"{}\" is missing; the columns are {}",
+                role.name, described(form));
   }
   for (const WantedColumn& each : wanted) {
     const bool beside = each.role == doubtful_role || (each.role == label_role && !form.is_trace);
     if (form.find(each.role) || beside) continue;
-    throw record.source().error_at(rules::key_without_use, each.position,
+    throw record.source().error_at(rules::beyond_schema(rules::key_without_use), each.position,
                                    "{}: columns: \"{}\" cannot be combined with {}", record.where(),
                                    each.role, described(form));
   }

@@ -38,17 +38,21 @@ std::vector<ElementForm> forms_of_type(std::string_view type) {
             {"distribution", "uniform", {"distribution", "stiffness", "force", "elements"}},
             {"distribution", "power", {"distribution", "stiffness", "force", "elements", "chi"}}};
   const ElementKind& kind = kind_called(type);
-  ElementForm by_value{.needed = {kind.value.key}};
-  if (kind.second.exists())
-    (kind.second_is_optional ? by_value.optional : by_value.needed).emplace_back(kind.second.key);
+  const auto add_values = [&](ElementForm& form, mechanics::FrictionLaw law) {
+    for (const mechanics::ValueKey* value : kind.values()) {
+      if (!value->exists() || value->law.value_or(law) != law) continue;
+      (value->is_optional ? form.optional : form.needed).emplace_back(value->key);
+    }
+  };
+  ElementForm by_value;
+  add_values(by_value, mechanics::FrictionLaw::exact);
   if (kind.stop != nullptr)
     by_value.needed.emplace_back("clearance"), by_value.optional.emplace_back("tension");
-  if (kind.cubic.exists()) by_value.optional.emplace_back(kind.cubic.key);
   if (kind.can_be_smoothed()) {
     by_value.decider = "law", by_value.word = "exact", by_value.optional.emplace_back("law");
-    return {by_value,
-            {"law", "arctan", {kind.value.key, "law", kind.slope.key}},
-            {"law", "stribeck", {"law", "table"}}};
+    ElementForm arctan{"law", "arctan", {"law"}};
+    add_values(arctan, mechanics::FrictionLaw::arctan);
+    return {by_value, arctan, {"law", "stribeck", {"law", "table"}}};
   }
   if (kind.table != nullptr) return {by_value, {.needed = {"table"}}};
   return {by_value};
@@ -58,7 +62,7 @@ mechanics::Range range_of_type(std::string_view type, std::string_view key) {
   const ElementKind& kind = kind_called(type);
   if (key == "stiffnesses") return kind.value.range;
   if (key == "forces") return kind.second.range;
-  for (const mechanics::ValueKey* value : {&kind.value, &kind.second, &kind.slope, &kind.cubic}) {
+  for (const mechanics::ValueKey* value : kind.values()) {
     if (value->exists() && key == value->key) return value->range;
   }
   return mechanics::Range::finite;

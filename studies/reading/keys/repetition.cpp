@@ -90,7 +90,7 @@ class Repetition {
                           index.from <= index.to && index.step > 0 && index.step <= largest;
     if (!is_range)
       throw source_.error_at(
-          rules::out_of_range, entry.value.position,
+          rules::beyond_schema(rules::out_of_range), entry.value.position,
           "repeat: {}: {} to {} in steps of {} is not a range: numbers must rise and stay within a million",
           entry.key, index.from, index.to, index.step);
     return index;

@@ -30,6 +30,16 @@ std::vector<std::string> quoted(const std::vector<std::string>& words) {
   return result;
 }
 
+// In place of a number a text with the index of a `repeat` that is missing, or one with too many digits to be
+// a whole number here, is right for the schema.
+Rule wrong_type_of(const TomlValue& value) {
+  const auto* text = value.as<std::string>();
+  const auto* number = value.as<double>();
+  const bool is_repeated = text && text->starts_with('{');
+  const bool is_whole = number && std::trunc(*number) == *number;
+  return is_repeated || is_whole ? rules::beyond_schema(rules::wrong_type) : rules::wrong_type;
+}
+
 }  // namespace
 
 const TomlEntry* find_entry(const TomlValue& table, std::string_view key) {
@@ -110,7 +120,7 @@ std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwis
   const TomlValue* value = find(key);
   if (!value) return otherwise;
   const auto integer = whole_number(*value);
-  if (!integer) fail(rules::wrong_type, key, "expected a whole number, found {}", described(*value));
+  if (!integer) fail(wrong_type_of(*value), key, "expected a whole number, found {}", described(*value));
   check_limits(key, static_cast<double>(*integer), "a whole number ");
   return *integer;
 }
@@ -180,7 +190,9 @@ std::string read_text(const StudySource& source, const std::string& where, const
 std::string read_identifier(const StudySource& source, const std::string& where, const TomlValue& value) {
   const std::string name = read_text(source, where, value);
   if (!is_identifier(name)) {
-    fail_at(rules::not_a_name, source, value, where,
+    // "{i}" of a `repeat` that is missing.
+    const bool is_repeated = name.find('{') != std::string::npos;
+    fail_at(is_repeated ? rules::beyond_schema(rules::not_a_name) : rules::not_a_name, source, value, where,
             fmt::format("\"{}\" is not a name: names are a letter followed by letters, digits and _", name));
   }
   return name;
@@ -194,7 +206,7 @@ double read_number(const StudySource& source, const std::string& where, const To
   if (const auto* integer = value.as<std::int64_t>()) return static_cast<double>(*integer);
   const auto* number = value.as<double>();
   if (!number)
-    fail_at(rules::wrong_type, source, value, where,
+    fail_at(wrong_type_of(value), source, value, where,
             fmt::format("expected a number, found {}", described(value)));
   if (!std::isfinite(*number))
     fail_at(rules::not_finite, source, value, where, fmt::format("{} is not a finite number", *number));
@@ -221,7 +233,8 @@ std::string label(const TomlValue& table, std::string_view kind, std::string_vie
                   std::string_view path, std::size_t number) {
   const TomlEntry* entry = find_entry(table, naming_key);
   const auto* name = entry ? entry->value.as<std::string>() : nullptr;
-  if (!name || name->empty() || name->size() > longest_label) return fmt::format("[[{}]] {}", path, number);
+  if (!name || name->empty() || name->size() > longest_label)
+    return fmt::format("[[{}]] {}", path, table.number > 0 ? table.number : number);
   return fmt::format("{} \"{}\"", kind, *name);
 }
 

@@ -41,8 +41,8 @@ std::size_t read_design_parameter(const TuneReading& reading, const TomlSection&
                  twice->position.line);
   const auto& band = reading.choice.band;
   if (band && band->parameter == parameter)
-    section.fail(rules::key_without_use, "parameter", "\"{}\" runs over the band, so it cannot be tuned",
-                 name);
+    section.fail(rules::beyond_schema(rules::key_without_use), "parameter",
+                 "\"{}\" runs over the band, so it cannot be tuned", name);
   if (!network_depends_on(reading.study, parameter))
     section.fail(rules::wrong_dependence, "parameter", "no value of the network depends on \"{}\"", name);
   return parameter;
@@ -80,20 +80,21 @@ std::vector<double> read_knots(const TomlSection& section, const BandChoice& ban
 // leap_place).
 void read_jumps(const TuneReading& reading, const TomlSection& section, DesignChoice& design) {
   if (std::ranges::any_of(reading.choice.designs, &DesignChoice::may_leap))
-    section.fail_here(rules::key_without_use,
+    section.fail_here(rules::beyond_schema(rules::key_without_use),
                       "another schedule jumps, and a schedule that jumps must be the only one");
   if (!section.find("jumps")) return;
   design.may_leap = section.integer_or("jumps", 0) == 1;
   if (!design.may_leap) return;
   if (reading.choice.objective != tuning::Objective::minimax)
-    section.fail(rules::key_without_use, "jumps",
+    section.fail(rules::beyond_schema(rules::key_without_use), "jumps",
                  "needs objective = \"minimax\": the worst peak decides where a schedule jumps");
   if (tuning::may_take_several_orbits(reading.study.network))
     section.fail(
         rules::unfit_for_method, "jumps",
         "a system that may have several responses at one frequency has no grid on which to place a jump");
   if (reading.choice.has_schedule())
-    section.fail(rules::key_without_use, "jumps", "needs this to be the only schedule of the study");
+    section.fail(rules::beyond_schema(rules::key_without_use), "jumps",
+                 "needs this to be the only schedule of the study");
 }
 
 // max_slope is in the unit of the bounds over that of the band.
@@ -102,13 +103,13 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
   if (!value) return;
   const auto& band = reading.choice.band;
   if (reading.choice.peaks)
-    section.fail(rules::key_without_use, "schedule",
+    section.fail(rules::beyond_schema(rules::key_without_use), "schedule",
                  "a tuning over records has no band for a schedule; leave out the schedule");
   if (reading.choice.objective == tuning::Objective::variance || !band)
-    section.fail(rules::key_without_use, "schedule",
+    section.fail(rules::beyond_schema(rules::key_without_use), "schedule",
                  "a variance belongs to one system for all frequencies; leave out the schedule");
   if (!(band->range.from < band->range.to))
-    section.fail(rules::key_without_use, "schedule",
+    section.fail(rules::beyond_schema(rules::key_without_use), "schedule",
                  "the band is a single frequency; leave out the schedule");
   const TomlSection schedule(reading.context.source, *value, fmt::format("{}: schedule", section.where()),
                              "design.schedule");
@@ -138,7 +139,7 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
   read_schedule(reading, section, design);
   if (section.find("rule")) {
     if (!design.is_scheduled())
-      section.fail(rules::key_without_use, "rule",
+      section.fail(rules::beyond_schema(rules::key_without_use), "rule",
                    "is compared with a schedule, but this [[design]] has none");
     const Parameter& parameter = reading.study.parameters.list[design.parameter];
     design.rule = read_formula(reading, section, "rule", wanted_of_parameter(parameter));
@@ -220,7 +221,7 @@ void read_column(TuneReading& reading, const TomlValue& table, std::size_t numbe
   column.upper = read_bound(section, "upper", 1.0, column.upper);
   check_bounds(section, column.lower, column.upper);
   if (!reading.choice.band)
-    section.fail_here(rules::key_without_use,
+    section.fail_here(rules::beyond_schema(rules::key_without_use),
                       "a column accompanies the schedule over a band, but there is no band");
   reading.choice.columns.push_back(std::move(column));
 }

@@ -125,7 +125,7 @@ void read_bounds(const Study& study, const TomlSection& section, IdentifiedParam
                  section.number("upper"), fitted.lower / factor);
   const double start = std::get<double>(study.parameters.list[fitted.parameter].definition);
   if (start >= fitted.lower && start <= fitted.upper) return;
-  section.fail(rules::out_of_range, start < fitted.lower ? "lower" : "upper",
+  section.fail(rules::beyond_schema(rules::out_of_range), start < fitted.lower ? "lower" : "upper",
                "the fit starts from {:.6g} of [parameters], outside its bounds {:.6g} to {:.6g}{}{}",
                start / factor, fitted.lower / factor, fitted.upper / factor,
                fitted.unit.text.empty() ? "" : " ", fitted.unit.text);

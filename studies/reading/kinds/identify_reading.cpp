@@ -80,7 +80,7 @@ void check_reference_frequency(const TomlSection& section, const Study& study, c
   for (const RecordChoice& record : choice.records) {
     const bool free = record.motion == identification::MotionKind::free;
     if (!free && !study.network.excitations.empty()) continue;
-    section.fail_here(rules::missing_key,
+    section.fail_here(rules::beyond_schema(rules::missing_key),
                       "the key \"reference_frequency\" is missing: the study has a hysteretic element, but "
                       "the record \"{}\" has no known frequency for its loss factor",
                       record.name);
@@ -122,7 +122,7 @@ void check_stiffness(const TomlSection& section, const IdentifyChoice& choice) {
   if (choice.method != Method::forced_resonance || choice.stiffness) return;
   if (choice.records.front().find("force"))
     section.fail_here(
-        rules::missing_key,
+        rules::beyond_schema(rules::missing_key),
         "the key \"stiffness\" is missing (a stiffness, N/m): the displacement that a force would cause at "
         "rest is force / stiffness");
 }

@@ -66,11 +66,11 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   const Parameters& parameters = reading.parameters;
   const auto& forces = reading.result.network.excitations;
   if (mechanics::has_records(reading.result.network))
-    section.fail(rules::key_without_use, "sweep_to",
+    section.fail(rules::beyond_schema(rules::key_without_use), "sweep_to",
                  "a run-up consists of steps of constant frequency, but a record ([[excitation.record]]) "
                  "runs in its own time; leave out one of them");
   if (std::all_of(forces.begin(), forces.end(), [](const auto& force) { return force.order == 0; }))
-    section.fail(rules::key_without_use, "sweep_to",
+    section.fail(rules::beyond_schema(rules::key_without_use), "sweep_to",
                  "the excitation is constant, so it has no frequency that could run");
   const Expression& frequency = reading.result.values.omega.expression;
   const auto sole = frequency.sole_parameter();
@@ -110,7 +110,8 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
   }
   if (motion.sweep_to) check_run_up(reading, section);
   if (!motion.duration && !motion.sweep_to && !mechanics::has_records(reading.result.network))
-    section.fail_here(rules::missing_key, "the key \"duration\" is missing (a time, s)");
+    section.fail_here(rules::beyond_schema(rules::missing_key),
+                      "the key \"duration\" is missing (a time, s)");
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ void read_interpolation(const Study& study, const TomlSection& section, RecordCh
     if (!why.empty()) section.fail(rules::unfit_for_method, "interpolation", "{}", why);
   }
   if (section.find("interpolation") && !is_used)
-    section.fail(rules::key_without_use, "interpolation",
+    section.fail(rules::beyond_schema(rules::key_without_use), "interpolation",
                  "has no effect: no displacement of a support was measured, which would drive the motion");
 }
 
@@ -128,7 +128,7 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
     section.fail(rules::unfit_for_method, "motion", "\"{}\", but a measured excitation needs \"forced\"",
                  word);
   if (record.motion != MotionKind::free && !measured && !stated)
-    section.fail(rules::missing_section, "motion",
+    section.fail(rules::beyond_schema(rules::missing_section), "motion",
                  "\"{}\", but the study has no [excitation] and none was measured", word);
   if (measured && record.doubtful > 0)
     section.fail(rules::doubtful_row, "file",
@@ -138,7 +138,7 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
   read_interpolation(study, section, record);
   if (record.motion == MotionKind::free && study.initial().empty())
     section.fail_here(
-        rules::missing_section,
+        rules::beyond_schema(rules::missing_section),
         "a free motion starts from [[initial]] values, but the study has none, so nothing would move");
 }
 
@@ -168,9 +168,10 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
   const Method method = reading.choice.method;
   section.keep_to(method_name(method));
   const auto check = [&](const char* key, bool wanted, const char* rule) {
-    if (section.find(key) && !wanted) section.fail(rules::key_without_use, key, "has no use here; {}", rule);
+    if (section.find(key) && !wanted)
+      section.fail(rules::beyond_schema(rules::key_without_use), key, "has no use here; {}", rule);
     if (!section.find(key) && wanted)
-      section.fail_here(rules::missing_key, "the key \"{}\" is missing; {}", key, rule);
+      section.fail_here(rules::beyond_schema(rules::missing_key), "the key \"{}\" is missing; {}", key, rule);
   };
   check("added_mass", method == Method::added_mass && form.is_trace,
         "it is the mass added while the trace of a record of the method \"added_mass\" was taken; 0 if none "

@@ -58,11 +58,11 @@ void check_over_band(Study& study, std::vector<double>& parameters, const std::s
 [[noreturn]] void refuse(const Study& study, const StudyValue& value, double found, double at,
                          const char* rule) {
   const BandChoice& band = *study.tune()->band;
-  throw study.source.error_at(rules::out_of_range, value.position, "{}: {} at {} = {}; {}", value.where,
-                              std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
-                              study.parameters.list[band.parameter].name,
-                              with_unit(fmt::format("{:.6g}", at / band.unit.si_factor), band.unit.text),
-                              rule);
+  throw study.source.error_at(
+      rules::beyond_schema(rules::out_of_range), value.position, "{}: {} at {} = {}; {}", value.where,
+      std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
+      study.parameters.list[band.parameter].name,
+      with_unit(fmt::format("{:.6g}", at / band.unit.si_factor), band.unit.text), rule);
 }
 
 void check_weight_and_rules(const Study& study, std::vector<double> parameters) {

@@ -38,10 +38,10 @@ void read_quantile(const TomlSection& section, TuneChoice& choice) {
   if (!section.find("quantile")) return;
   choice.quantile = section.number("quantile");
   if (choice.drawn.empty())
-    section.fail(rules::key_without_use, "quantile",
+    section.fail(rules::beyond_schema(rules::key_without_use), "quantile",
                  "needs samples: give an [[axis]] of them, as in samples = 100");
   if (choice.peaks->objective != tuning::RecordObjective::worst_peak)
-    section.fail(rules::key_without_use, "quantile",
+    section.fail(rules::beyond_schema(rules::key_without_use), "quantile",
                  "belongs to the worst peaks of samples; write objective = \"worst_peak\"");
 }
 
@@ -89,7 +89,7 @@ void check_designs(const TuneReading& reading, const TomlSection& section) {
 void refuse_tables(const StudyContext& context, const TomlValue& root) {
   for (const char* table : {"constraint", "column", "orbits"}) {
     if (const TomlEntry* entry = find_entry(root, table))
-      throw context.source.error_at(rules::other_kind, entry->position,
+      throw context.source.error_at(rules::beyond_schema(rules::other_kind), entry->position,
                                     "the section \"{}\" is not part of a tuning over records: it belongs to "
                                     "periodic responses over a band",
                                     table);
@@ -116,7 +116,7 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   choice.solver = tuning::solver_named(section.choice("solver", "slsqp"));
   read_start(section, choice);
   if (choice.start == tuning::Start::global || choice.start == tuning::Start::map)
-    section.fail(rules::key_without_use, "start",
+    section.fail(rules::beyond_schema(rules::key_without_use), "start",
                  "under records the whole box cannot be searched; write a number of starts");
   read_tolerance(section, choice);
   choice.peaks = std::move(peaks);

@@ -53,7 +53,9 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
                       "the key \"noise\" is missing: a variance needs noise = {{ force_on = \"<mass>\" }} or "
                       "{{ acceleration_of = \"<node>\" }}");
   if (!value) return;
-  if (!wanted) section.fail(rules::key_without_use, "noise", "belongs to objective = \"variance\"");
+  if (!wanted)
+    section.fail(rules::beyond_schema(rules::key_without_use), "noise",
+                 "belongs to objective = \"variance\"");
   const TomlSection noise(reading.context.source, *value, "[tune]: noise", "tune.noise");
   const bool force = noise.find("force_on") != nullptr;
   if (force == (noise.find("acceleration_of") != nullptr))
@@ -94,7 +96,8 @@ void refuse_fixed_frequency(const TuneReading& reading, const TomlSection& secti
       "\"omega\", [parameters] omega = { value = 3, unit = \"Hz\" }, and band = { parameter = \"omega\", "
       "from = 3, to = 3, unit = \"Hz\" } for this one frequency";
   *key ? section.fail(rules::wrong_dependence, key, "{}", message)
-       : section.fail_here(rules::missing_key, "the key \"band\" is missing: {}", message);
+       : section.fail_here(rules::beyond_schema(rules::missing_key), "the key \"band\" is missing: {}",
+                           message);
 }
 
 void read_band(TuneReading& reading, const TomlSection& section) {
@@ -122,13 +125,13 @@ void require_band(const TuneReading& reading, const TomlSection& section) {
   if (choice.band) return;
   if (choice.objective != Objective::variance) {
     refuse_fixed_frequency(reading, section, "");
-    section.fail_here(rules::missing_key,
+    section.fail_here(rules::beyond_schema(rules::missing_key),
                       "the key \"band\" is missing: band = {{ parameter = \"omega\", from = 15.0, to = 35.0 "
                       "}}; one frequency is "
                       "from = to");
   }
   if (!choice.limits.empty() || choice.trade_off)
-    section.fail_here(rules::missing_key,
+    section.fail_here(rules::beyond_schema(rules::missing_key),
                       "the key \"band\" is missing: limits hold over a band of frequencies");
 }
 
@@ -137,7 +140,7 @@ void refuse_idle_band(const TuneReading& reading, const TomlSection& section) {
   const TuneChoice& choice = reading.choice;
   if (choice.objective != Objective::variance || !choice.band || !choice.limits.empty() || choice.trade_off)
     return;
-  section.fail(rules::key_without_use, "band",
+  section.fail(rules::beyond_schema(rules::key_without_use), "band",
                "a variance under white noise covers all frequencies, and no limit needs this band; leave it "
                "out, or write objective = \"mean_square\", which covers the band");
 }
@@ -160,7 +163,8 @@ void check_weight(const TuneReading& reading, const TomlSection& section) {
   const TuneChoice& choice = reading.choice;
   if (!choice.weight) return;
   if (choice.objective == Objective::variance)
-    section.fail(rules::key_without_use, "weight", "a variance has no weight over frequencies");
+    section.fail(rules::beyond_schema(rules::key_without_use), "weight",
+                 "a variance has no weight over frequencies");
   const Parameters& parameters = reading.study.parameters;
   for (const std::size_t input : parameters.inputs_of(choice.weight->expression.reads())) {
     const bool designed = std::any_of(choice.designs.begin(), choice.designs.end(),
@@ -180,11 +184,11 @@ void check_dominate(const TuneReading& reading, const TomlSection& section) {
   if (!section.find("dominate")) return;
   section.choice("dominate");
   if (!reading.choice.has_schedule())
-    section.fail(rules::key_without_use, "dominate",
+    section.fail(rules::beyond_schema(rules::key_without_use), "dominate",
                  "needs a [[design]] with a schedule, which must be nowhere above its constant");
   if (std::ranges::any_of(reading.choice.designs, &DesignChoice::may_leap))
     section.fail(
-        rules::key_without_use, "dominate",
+        rules::beyond_schema(rules::key_without_use), "dominate",
         "cannot be combined with a schedule that jumps, because its jump is placed for the least worst peak");
 }
 

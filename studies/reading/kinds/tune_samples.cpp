@@ -18,7 +18,7 @@ const TomlValue& axis_of_samples(const TuneReading& reading) {
   const std::vector<const TomlValue*> tables = read_tables(source, reading.root, "axis");
   for (const TomlValue* table : tables) {
     if (!is_axis_of_samples(*table))
-      throw source.error_at(rules::other_kind, table->position,
+      throw source.error_at(rules::beyond_schema(rules::other_kind), table->position,
                             "an [[axis]] of a tuning must have samples, as in samples = 100; the range of "
                             "what is tuned belongs in [[design]]");
   }
@@ -26,7 +26,7 @@ const TomlValue& axis_of_samples(const TuneReading& reading) {
     throw source.error_at(rules::given_twice, tables[1]->position,
                           "a tuning has one axis of samples; list all uncertain parameters there");
   if (!reading.choice.scenarios.empty())
-    throw source.error_at(rules::key_without_use, tables[0]->position,
+    throw source.error_at(rules::beyond_schema(rules::key_without_use), tables[0]->position,
                           "each sample is a scenario; leave out either the samples or the [[scenario]]");
   return *tables.front();
 }
@@ -64,14 +64,14 @@ void read_samples(TuneReading& reading, const std::filesystem::path& folder, Dat
 void refuse_samples(const TuneReading& reading) {
   if (const TomlEntry* entry = find_entry(reading.root, "axis"))
     throw reading.context.source.error_at(
-        rules::other_kind, entry->position,
+        rules::beyond_schema(rules::other_kind), entry->position,
         "the section \"axis\" is not part of a tuning over a band: the band and the bounds of [[design]] are "
         "its ranges, and samples belong to a tuning over records");
 }
 
 void refuse_quantile(const TomlSection& section) {
   if (section.find("quantile"))
-    section.fail(rules::other_kind, "quantile",
+    section.fail(rules::beyond_schema(rules::other_kind), "quantile",
                  "belongs to the worst peaks of samples in a tuning over records; over a band there are "
                  "none: leave it out, or drive the study by [[excitation.record]]");
 }

@@ -31,7 +31,7 @@ void check_map(const TuneReading& reading, const TomlSection& section) {
   const auto varying = std::ranges::count_if(
       reading.choice.designs, [](const DesignChoice& design) { return design.lower < design.upper; });
   if (varying > kMostOfMap)
-    section.fail(rules::out_of_range, "start",
+    section.fail(rules::beyond_schema(rules::out_of_range), "start",
                  "\"map\" searches up to {} parameters, but {} are tuned; write a number of starts",
                  kMostOfMap, varying);
   if (tuning::may_take_several_orbits(reading.study.network))
@@ -54,7 +54,7 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
   }
   choice.start_is_given = value != nullptr;
   if (section.find("global") && choice.start != tuning::Start::global)
-    section.fail(rules::key_without_use, "global", "belongs to start = \"nlopt\"");
+    section.fail(rules::beyond_schema(rules::key_without_use), "global", "belongs to start = \"nlopt\"");
   choice.global_solver = tuning::solver_named(section.choice("global"));
 }
 

@@ -82,7 +82,7 @@ void add_to_grid(const TomlSection& section, std::size_t index, Study& study) {
     const ParameterAxis& other = study.map()->axes[dimension.axes.front()];
     if (axis.zip.empty() || other.zip != axis.zip) continue;
     if (axis.values.size() != dimension.size) {
-      section.fail(rules::wrong_length, "zip",
+      section.fail(rules::beyond_schema(rules::wrong_length), "zip",
                    "{} values cannot advance together with the {} of axis \"{}\" (line {})",
                    axis.values.size(), dimension.size, study.parameters.list[other.parameter].name,
                    other.position.line);
@@ -122,7 +122,7 @@ std::vector<double> read_range(const TomlSection& section) {
   const bool logarithmic = section.choice("spacing") == "log";
   for (const char* end : {"from", "to"}) {
     if (logarithmic && !(section.number(end) > 0.0)) {
-      section.fail(rules::out_of_range, end,
+      section.fail(rules::beyond_schema(rules::out_of_range), end,
                    "{} is not possible with spacing = \"log\": both ends must be > 0", section.number(end));
     }
   }

@@ -77,7 +77,7 @@ std::vector<Assignment> read_row(const StudyContext& context, const Study& study
     const double wanted = row.back().value / axis->si_factor;
     const double nearest = *std::ranges::min_element(
         axis->values, {}, [wanted](double each) { return std::abs(each - wanted); });
-    throw context.source.error_at(rules::out_of_range, entry.value.position,
+    throw context.source.error_at(rules::beyond_schema(rules::out_of_range), entry.value.position,
                                   "{}: {}: {} is not a value of this axis; the nearest is {}", where,
                                   entry.key, wanted, nearest);
   }

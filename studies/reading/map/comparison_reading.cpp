@@ -73,7 +73,7 @@ void read_compared_profile(const TomlSection& section, const Study& study, Compa
   if (std::any_of(excitations.begin(), excitations.end(), differs)) return;
   const bool none = std::none_of(excitations.begin(), excitations.end(),
                                  [](const auto& each) { return each.kind == ExcitationKind::crank; });
-  section.fail(rules::key_without_use, "taylor_order", "{}",
+  section.fail(rules::beyond_schema(rules::key_without_use), "taylor_order", "{}",
                none ? "the study has no motion of the profile \"crank\" to be cut"
                     : "the study's cranks are already cut at this order");
 }
@@ -122,7 +122,7 @@ void read_compared_show(const TomlSection& section, const Study& study, Comparis
   if (section.find("slope"))
     section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to another response");
   if (!mechanics::may_have_several_responses(study.network))
-    section.fail(rules::key_without_use, "show",
+    section.fail(rules::beyond_schema(rules::key_without_use), "show",
                  "has no effect: only one response exists here; several are searched for only if an element "
                  "is a gap, or has a table, a cubic or a static_force");
   comparison.show = read_show(section);
@@ -154,7 +154,8 @@ void check_compared_show(const StudyContext& context, const TomlValue& root, con
   if (!comparison || !comparison->show) return;
   const TomlSection section = section_of(context, *find_entry(root, "compare"));
   if (*comparison->show == study.sweep()->orbits.show)
-    section.fail(rules::key_without_use, "show", "the study already shows this response; choose another");
+    section.fail(rules::beyond_schema(rules::key_without_use), "show",
+                 "the study already shows this response; choose another");
   if (periodic::OrbitsWanted::is_slow_sweep(*comparison->show)) check_slow_sweep(section, study);
 }
 

@@ -30,7 +30,7 @@ void read_ends(const TomlSection& section, Distribution& distribution) {
 
 void check_cuts(const TomlSection& section, const Distribution& distribution) {
   if (samples::kept_share(distribution) >= least_share) return;
-  section.fail(rules::out_of_range, section.find("lower") ? "lower" : "upper",
+  section.fail(rules::beyond_schema(rules::out_of_range), section.find("lower") ? "lower" : "upper",
                "less than {} of the distribution lies between lower and upper", least_share);
 }
 
@@ -41,7 +41,8 @@ void read_normal(const TomlSection& section, Distribution& distribution) {
   if (spread == "deviation") return;
   distribution.spread *= std::abs(distribution.centre);
   if (!(distribution.spread > 0.0))
-    section.fail(rules::out_of_range, "variation", "belongs to a mean of 0; give the deviation instead");
+    section.fail(rules::beyond_schema(rules::out_of_range), "variation",
+                 "belongs to a mean of 0; give the deviation instead");
 }
 
 // Mean = median exp(s^2 / 2), s the deviation of the logarithm.
@@ -67,8 +68,8 @@ void read_bounded(const TomlSection& section, Distribution& distribution) {
   if (distribution.kind == Distribution::Kind::uniform) return;
   distribution.centre = section.number("mode");
   if (distribution.centre < distribution.lower || distribution.centre > distribution.upper)
-    section.fail(rules::out_of_range, "mode", "is {}; must be from {} to {}", distribution.centre,
-                 distribution.lower, distribution.upper);
+    section.fail(rules::beyond_schema(rules::out_of_range), "mode", "is {}; must be from {} to {}",
+                 distribution.centre, distribution.lower, distribution.upper);
 }
 
 // "normal, mean 5, deviation 0.5": what the study says.

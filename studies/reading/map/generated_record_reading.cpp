@@ -68,7 +68,7 @@ void read_ground(const StudyContext& context, const TomlSection& section, Genera
   // Half the rate is the highest frequency that samples tell apart.
   const double highest = std::numbers::pi * generated.sampling.rate;
   if (ground.ground_frequency >= highest)
-    section.fail(rules::out_of_range, "rate",
+    section.fail(rules::beyond_schema(rules::out_of_range), "rate",
                  "{} per second is too low for the ground's {:.6g} rad/s: samples can distinguish "
                  "frequencies only up to half their rate, {:.6g} rad/s",
                  generated.sampling.rate, ground.ground_frequency, highest);

@@ -101,8 +101,11 @@ std::string place_name(const Study& study, const Checked& checked, std::span<con
   const Position position = checked.value ? checked.value->position : checked.parameter->position;
   const std::string where =
       checked.value ? checked.value->where : fmt::format("parameter \"{}\"", checked.parameter->name);
-  throw study.source.error_at(rule, position, "{}: {}{}; {}", where, problem,
-                              place_name(study, checked, parameters), must);
+  const std::string place = place_name(study, checked, parameters);
+  const auto is_it = [&](const StudyValue& each) { return &each == checked.value; };
+  const bool is_of_table = std::ranges::any_of(study.values.points, is_it);
+  throw study.source.error_at(place.empty() && !is_of_table ? rule : rules::beyond_schema(rule), position,
+                              "{}: {}{}; {}", where, problem, place, must);
 }
 
 void check_derived(const Study& study, const Checked& checked, std::span<const double> parameters) {
@@ -110,13 +113,14 @@ void check_derived(const Study& study, const Checked& checked, std::span<const d
   if (std::isfinite(value)) return;
   if (const auto* table = std::get_if<TableOf>(&checked.parameter->definition)) {
     const auto written = [&](double si) { return spoken_text(study, table->of, si); };
-    fail(rules::out_of_range, study, checked, parameters,
+    fail(rules::beyond_schema(rules::out_of_range), study, checked, parameters,
          fmt::format("the table \"{}\" has no value", table->file),
          fmt::format("it covers {} from {} to {}, here {}", study.parameters.list[table->of].name,
                      written(table->table.x.front()), written(table->table.x.back()),
                      written(parameters[table->of])));
   }
-  fail(rules::out_of_range, study, checked, parameters, "has no value", "must be a finite number");
+  fail(rules::beyond_schema(rules::out_of_range), study, checked, parameters, "has no value",
+       "must be a finite number");
 }
 
 void check_value(const Study& study, const Checked& checked, std::span<const double> parameters) {
@@ -127,7 +131,8 @@ void check_value(const Study& study, const Checked& checked, std::span<const dou
                        pure ? "" : written_si_unit(checked.value->quantity));
   };
   if (!std::isfinite(value))
-    fail(rules::out_of_range, study, checked, parameters, "has no value", "must be a finite number");
+    fail(rules::beyond_schema(rules::out_of_range), study, checked, parameters, "has no value",
+         "must be a finite number");
   if (checked.value->range == Range::not_negative && value < 0.0) {
     fail(rules::out_of_range, study, checked, parameters, is(), "must be >= 0");
   }
@@ -211,8 +216,8 @@ double crank_ratio(const Study& study, std::size_t excitation, std::span<const d
   const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
   const double ratio = crank.expression.evaluate(parameters) / rod.expression.evaluate(parameters);
   if (ratio <= mechanics::kLargestCrankRatio) return ratio;
-  fail(rules::out_of_range, study, {&crank, nullptr, reads_of_crank(study, excitation)}, parameters,
-       fmt::format("is {:.6g} times the rod", ratio),
+  fail(rules::beyond_schema(rules::out_of_range), study, {&crank, nullptr, reads_of_crank(study, excitation)},
+       parameters, fmt::format("is {:.6g} times the rod", ratio),
        fmt::format("must be at most {} times the rod; otherwise its Fourier series is too long",
                    mechanics::kLargestCrankRatio));
 }

@@ -27,14 +27,15 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
   const bool has_one = study.tune() ? !tuning::may_take_several_orbits(study.network)
                                     : !mechanics::may_have_several_responses(study.network);
   if (has_one)
-    section.fail_here(rules::key_without_use,
+    section.fail_here(rules::beyond_schema(rules::key_without_use),
                       "has no effect: only one response exists here; several are searched for only if an "
                       "element is a gap, or has a table, a cubic or a static_force");
   wanted.starts = static_cast<int>(section.integer_or("starts", wanted.starts));
   wanted.most_multiple = static_cast<int>(section.integer_or("most_multiple", wanted.most_multiple));
   if (study.tune()) {
     if (section.find("show"))
-      section.fail(rules::key_without_use, "show", "has no effect: in a tuning the worst response counts");
+      section.fail(rules::beyond_schema(rules::key_without_use), "show",
+                   "has no effect: in a tuning the worst response counts");
     return wanted;
   }
   wanted.show = read_show(section);
@@ -44,7 +45,7 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
   const bool searches =
       comparison && comparison->show && !periodic::OrbitsWanted::is_slow_sweep(*comparison->show);
   if (section.find("starts") && !searches)
-    section.fail(rules::key_without_use, "starts",
+    section.fail(rules::beyond_schema(rules::key_without_use), "starts",
                  "has no effect: a sweep begins at rest and continues from point to point");
   return wanted;
 }

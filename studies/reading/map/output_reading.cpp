@@ -38,7 +38,9 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
 void read_quantiles(const TomlSection& section, std::optional<SampleChoice>& samples) {
   const TomlValue* value = section.find("quantiles");
   if (!value) return;
-  if (!samples) section.fail(rules::key_without_use, "quantiles", "has no effect: no [[axis]] has samples");
+  if (!samples)
+    section.fail(rules::beyond_schema(rules::key_without_use), "quantiles",
+                 "has no effect: no [[axis]] has samples");
   const auto* items = value->as<TomlArray>();
   if (!items || items->empty())
     section.fail(rules::wrong_type, "quantiles", "expected an array of shares such as [0.05, 0.5, 0.95]");

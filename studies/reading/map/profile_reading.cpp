@@ -76,7 +76,8 @@ std::vector<std::size_t> read_masses(const TomlSection& section, const mechanics
 std::vector<double> even_heights(const TomlSection& section, std::size_t masses) {
   const double storey = section.number("height");
   if (!(storey > 0.0))
-    section.fail(rules::out_of_range, "height", "the height of a storey must be positive, found {}", storey);
+    section.fail(rules::beyond_schema(rules::out_of_range), "height",
+                 "the height of a storey must be positive, found {}", storey);
   std::vector<double> heights;
   for (std::size_t n = 1; n <= masses; ++n) heights.push_back(storey * static_cast<double>(n));
   return heights;
@@ -89,8 +90,8 @@ std::vector<double> read_heights(const TomlSection& section, std::size_t masses)
   if (!items) return even_heights(section, masses);
   const std::string where = section.where() + ": height";
   if (items->size() != masses)
-    section.fail(rules::wrong_length, "height", "{} heights for the {} masses of the profile", items->size(),
-                 masses);
+    section.fail(rules::beyond_schema(rules::wrong_length), "height",
+                 "{} heights for the {} masses of the profile", items->size(), masses);
   std::vector<double> heights;
   for (const TomlValue& item : *items) {
     const double height = read_number(section.source(), where, item);

@@ -55,7 +55,8 @@ namespace {
 void check_generated(const TomlSection& section, const GeneratedRecords& generated) {
   for (const char* key : {"time", "column", "unit", "interpolation"}) {
     if (section.find(key))
-      section.fail(rules::key_without_use, key, "belongs to files; the axis generates the records, in SI");
+      section.fail(rules::beyond_schema(rules::key_without_use), key,
+                   "belongs to files; the axis generates the records, in SI");
   }
   const RecordedPlace place = place_of(section);
   const bool white = generated.kind == "white";
@@ -155,7 +156,7 @@ std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, c
 void add_record_axis(const StudyContext& context, const TomlValue& root, const TomlValue& table,
                      Study& study) {
   if (!study.transient())
-    throw context.source.error_at(rules::other_kind, table.position,
+    throw context.source.error_at(rules::beyond_schema(rules::other_kind), table.position,
                                   "axis of records: is not part of {}; it is for kind = \"transient\"",
                                   kind_noun(study.kind()));
   const auto axis = read_record_axis(context, root);
@@ -178,7 +179,7 @@ std::vector<DrivingRecord> read_driving_records(const StudyContext& context, con
     const TomlSection& section = sections[i];
     DrivingRecord driving{.excitation = components[i], .on_axis = !section.find("file")};
     if (driving.on_axis && !axis)
-      section.fail_here(rules::missing_key,
+      section.fail_here(rules::beyond_schema(rules::missing_key),
                         "the key \"file\" is missing: give the file of the record, unless {} gives records",
                         giver);
     if (data == DataFiles::read)
@@ -187,7 +188,7 @@ std::vector<DrivingRecord> read_driving_records(const StudyContext& context, con
     all.push_back(std::move(driving));
   }
   if (axis && !std::ranges::any_of(all, &DrivingRecord::on_axis))
-    throw context.source.error_at(rules::key_without_use, axis->position,
+    throw context.source.error_at(rules::beyond_schema(rules::key_without_use), axis->position,
                                   "axis of records: no [[excitation.record]] takes its record from it: leave "
                                   "out the \"file\" of one");
   return all;

@@ -61,7 +61,7 @@ void draw(SampleReading& reading, const TomlValue& table, const std::filesystem:
   const auto own = static_cast<Eigen::Index>(distributions.size());
   if (reading.choice.axes.empty())
     section.fail_here(
-        rules::missing_key,
+        rules::beyond_schema(rules::missing_key),
         "the uncertain parameters are missing: give tables [[axis.of]] with distributions, or fixed_from");
   const auto which = section.choice_as<samples::Sequence>("sequence");
   const Eigen::MatrixXd points = samples::unit_points(which, count, reading.choice.axes.size(), seed);
@@ -157,7 +157,7 @@ void read_axis_of_samples(const StudyContext& context, const TomlValue& table, s
                           const std::filesystem::path& folder, DataFiles data, Study& study) {
   const bool of_file = is_of_file(table);
   refuse_text_for_number(context, table);
-  const TomlSection section(context.source, table, fmt::format("[[axis]] {}", number), "axis",
+  const TomlSection section(context.source, table, label(table, "axis", "parameter", "axis", number), "axis",
                             of_file ? "file" : "samples");
   SampleReading reading{
       .context = context,

@@ -18,7 +18,7 @@ Assignment read_assignment(const StudyContext& context, const Study& study, cons
   const Parameter& parameter = study.parameters.list[index];
   if (why_not) {
     if (const std::string reason = why_not(index); !reason.empty())
-      fail(rules::key_without_use, entry.position, reason);
+      fail(rules::beyond_schema(rules::key_without_use), entry.position, reason);
   }
   if (entry.value.as<std::string>())
     fail(rules::wrong_type, entry.value.position,

@@ -81,6 +81,16 @@ bool StudyValues::has_smooth_laws() const {
          std::ranges::any_of(characteristic, is_curve);
 }
 
+std::vector<std::size_t> StudyValues::read_by_system(const mechanics::Network& network) const {
+  std::vector<std::size_t> reads;
+  const auto add = [&](const StudyValue& value) {
+    reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
+  };
+  for (const auto* list : lists_of_system()) std::ranges::for_each(*list, add);
+  if (mechanics::frequency_dependent_element(network) != nullptr) add(omega);
+  return reads;
+}
+
 std::vector<std::size_t> StudyValues::read_by_factors() const {
   std::vector<std::size_t> reads;
   for (const auto* directions : {&along, &signals}) {

@@ -57,11 +57,20 @@ struct StudyValues {
   std::array<const std::vector<StudyValue>*, 10> lists() const {
     return {&mass, &element, &second, &slope, &cubic, &amplitude, &phase, &rod, &damping, &points};
   }
+  // Those of masses, elements and the damping of the structure.
+  std::array<const std::vector<StudyValue>*, 7> lists_of_system() const {
+    return {&mass, &element, &second, &slope, &cubic, &damping, &points};
+  }
+  // Those of each element, in the order of mechanics::ElementKind::values().
+  std::array<std::vector<StudyValue>*, 4> lists_of_elements() { return {&element, &second, &slope, &cubic}; }
   // Those of an element's characteristic.
   std::span<const StudyValue> points_of(std::size_t e) const {
     return std::span(points).subspan(characteristic[e].first, characteristic[e].count);
   }
   bool has_smooth_laws() const;
+  // Indices of the parameters that masses, elements and the damping of the structure read, and what an
+  // element that depends on it reads of the frequency.
+  std::vector<std::size_t> read_by_system(const mechanics::Network& network) const;
   // Indices of the parameters that the factors of directions read.
   std::vector<std::size_t> read_by_factors() const;
 };

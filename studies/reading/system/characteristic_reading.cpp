@@ -42,7 +42,8 @@ void read_stops(NetworkReading& reading, const TomlSection& section, const Eleme
   };
   add(pair ? pair->front() : clearance, -1.0);
   add(pair ? pair->back() : clearance, 1.0);
-  if (of.sides.empty()) section.fail(rules::empty, "clearance", "has no stop on either side");
+  if (of.sides.empty())
+    section.fail(rules::beyond_schema(rules::empty), "clearance", "has no stop on either side");
 }
 
 struct PointQuantities {
@@ -112,12 +113,11 @@ StudyCharacteristic read_characteristic(NetworkReading& reading, const TomlSecti
   const char* key = of.kind == Kind::stops ? "clearance" : "table";
   of.where = fmt::format("{}: {}", section.where(), key);
   of.position = section.require(key).position;
-  if (has_table && section.find(kind.value.key))
-    section.fail(rules::one_of_two_keys, kind.value.key,
-                 "its table already gives the force; give only one of the two");
-  if (has_table && kind.cubic.exists() && section.find(kind.cubic.key))
-    section.fail(rules::one_of_two_keys, kind.cubic.key,
-                 "its table already gives the force, linear between its points; give only one of the two");
+  for (const mechanics::ValueKey* value : kind.values()) {
+    if (has_table && section.find(value->key))
+      section.fail(rules::one_of_two_keys, value->key,
+                   "its table already gives the force, linear between its points; give only one of the two");
+  }
   if (of.kind != Kind::stops) read_points(reading, section, rotational, of);
   if (has_table) bend_at_inner_points(kind, of, element);
   if (of.kind == Kind::stops) {

@@ -21,8 +21,9 @@ void read_modal(NetworkReading& reading, const TomlSection& section) {
   if (list->empty()) section.fail(rules::empty, "modal", "is an empty list; expected at least one ratio");
   const std::size_t modes = reading.result.network.masses.size();
   if (list->size() > modes)
-    section.fail(rules::wrong_length, "modal", "{} ratios are given, but the system has {} mode{}",
-                 list->size(), modes, modes == 1 ? "" : "s");
+    section.fail(rules::beyond_schema(rules::wrong_length), "modal",
+                 "{} ratios are given, but the system has {} mode{}", list->size(), modes,
+                 modes == 1 ? "" : "s");
   for (const TomlValue& each : *list)
     read(fmt::format("[damping]: modal: ratio {}", ratios.size() + 1), each);
 }

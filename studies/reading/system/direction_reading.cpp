@@ -184,7 +184,7 @@ void check_factor_size(const Study& study, const StudyValue& factor, double valu
   constexpr double smallest = 1e-50, largest = 1e50;
   const double size = std::abs(value);
   if (size >= smallest && size <= largest) return;
-  throw study.source.error_at(rules::out_of_range, factor.position,
+  throw study.source.error_at(rules::beyond_schema(rules::out_of_range), factor.position,
                               "{}: {}; the size of a factor must be from {} to {}{}", factor.where,
                               std::isnan(value) ? "has no value" : fmt::format("is {:.6g}", value), smallest,
                               largest, value == 0.0 ? " (leave out the node)" : "");

@@ -105,8 +105,9 @@ double window_end(const StudyContext& context, const TomlSection& section, const
   const double time = window_time(context, section, key, otherwise);
   if (!section.find(key)) return time;
   if (time < record.time.front() || time > record.time.back())
-    section.fail(rules::out_of_range, key, "{} s is outside {}, which goes from {} to {} s", time, file.name,
-                 record.time.front(), record.time.back());
+    section.fail(rules::beyond_schema(rules::out_of_range), key,
+                 "{} s is outside {}, which goes from {} to {} s", time, file.name, record.time.front(),
+                 record.time.back());
   return record.is_spline() && record.time.size() > 1 ? nearest_sample(section, file, record, key, time)
                                                       : time;
 }

@@ -24,10 +24,11 @@ Problem problem_of_static_force(const Study& study, std::size_t e, std::span<con
   const StudyValue &sliding = study.values.element[e], &at_rest = study.values.second[e];
   const double F = sliding.expression.evaluate(parameters), F_s = at_rest.expression.evaluate(parameters);
   if (!(F > 0.0))
-    return ElementProblem{rules::out_of_range, &sliding, fmt::format("is {}", with_unit(study, sliding, F)),
+    return ElementProblem{rules::beyond_schema(rules::out_of_range), &sliding,
+                          fmt::format("is {}", with_unit(study, sliding, F)),
                           "must be > 0 if there is a static_force"};
   if (!(F_s < F)) return {};
-  return ElementProblem{rules::out_of_range, &at_rest,
+  return ElementProblem{rules::beyond_schema(rules::out_of_range), &at_rest,
                         fmt::format("is {}, below the force of {} while it slides",
                                     with_unit(study, at_rest, F_s), with_unit(study, sliding, F)),
                         "must be at least as large"};
@@ -62,7 +63,7 @@ Problem problem_of_damping(const Study& study, const StudyValue& value, const Ta
   double at_rest = table.slope(i);
   if (i > 0 && table.place(i) == 0.0) at_rest = std::min(at_rest, table.slope(i - 1));  // on either side
   if (at_rest < 0.0)
-    return ElementProblem{rules::out_of_range, &value,
+    return ElementProblem{rules::beyond_schema(rules::out_of_range), &value,
                           fmt::format("falls at velocity 0, by {:.6g} a unit", -at_rest),
                           "at rest a damper must not drive the motion"};
   const std::string one = needs_one_response(study);
@@ -87,7 +88,7 @@ Problem problem_of_table(const Study& study, std::size_t e, std::span<const doub
   for (std::size_t i = 0; i < table.points(); ++i) largest = std::max(largest, std::abs(table.force(i)));
   const StudyValue& value = study.values.element[e];
   if (const double N = table.force_at_origin(); std::abs(N) > rounding * largest)
-    return ElementProblem{rules::out_of_range, &value,
+    return ElementProblem{rules::beyond_schema(rules::out_of_range), &value,
                           fmt::format("gives the force {} at 0", with_unit(study, values[1], N)),
                           of.of_velocity ? "a damper at rest has no force: add the point [0, 0] to the table"
                                          : "it must pass through [0, 0]; subtract a preload from every "
@@ -102,7 +103,7 @@ Problem problem_of_curve(const Study& study, std::size_t e, std::span<const doub
   const auto number = [&](std::size_t i) { return values[i].expression.evaluate(parameters); };
   for (std::size_t i = 0; i < 2; ++i) {
     if (number(i) != 0.0)
-      return ElementProblem{rules::out_of_range, &values[i],
+      return ElementProblem{rules::beyond_schema(rules::out_of_range), &values[i],
                             fmt::format("is {}", with_unit(study, values[i], number(i))),
                             "must be 0: a curve of friction starts at [0, 0], and is odd"};
   }

@@ -126,17 +126,16 @@ StudyValue value_of_table(const StudyCharacteristic& table) {
   return {.where = table.where, .position = table.position};
 }
 
+// numbers: in the order of ElementKind::values().
 void add_element(NetworkReading& reading, const TomlSection& section, mechanics::Element element,
-                 const StudyDirection& along, StudyValue value, StudyValue second) {
+                 const StudyDirection& along, std::array<StudyValue, 4> numbers) {
   StudyValues& values = reading.result.values;
   reading.result.network.elements.push_back(std::move(element));
   check_number_of_contacts(reading, section, reading.result.network.elements.back());
   if (mechanics::kind_of(reading.result.network.elements.back()).has_internal_force)
     check_number_of_states(reading, section);
-  values.element.push_back(std::move(value));
-  values.second.push_back(std::move(second));
-  values.slope.emplace_back();
-  values.cubic.emplace_back();
+  const auto lists = values.lists_of_elements();
+  for (std::size_t i = 0; i < numbers.size(); ++i) lists[i]->push_back(std::move(numbers[i]));
   values.along.push_back(along);
   values.characteristic.emplace_back();
 }
@@ -149,9 +148,29 @@ void add_iwan(NetworkReading& reading, const TomlSection& section, mechanics::El
   check_one_law(reading, section, mechanics::kind_of(element), element.law);
   element.parts = sliders.size();
   for (const StudySlider& slider : sliders) {
-    add_element(reading, section, element, along, slider.stiffness, slider.force);
+    add_element(reading, section, element, along, {slider.stiffness, slider.force});
     element.parts = 0;
   }
+}
+
+// The numbers that the element has under its law; its table stands in place of its first.
+std::array<StudyValue, 4> read_numbers(NetworkReading& reading, const TomlSection& section,
+                                       const mechanics::Element& element,
+                                       const StudyCharacteristic& characteristic) {
+  using Kind = StudyCharacteristic::Kind;
+  const std::array<const ValueKey*, 4> keys = mechanics::kind_of(element).values();
+  const bool has_table = characteristic.kind == Kind::table || characteristic.kind == Kind::curve;
+  std::array<StudyValue, 4> numbers;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const ValueKey& value = *keys[i];
+    if (!value.exists() || value.law.value_or(element.law) != element.law) continue;
+    if (value.is_optional && !section.find(value.key)) continue;
+    numbers[i] = has_table && i == 0
+                     ? value_of_table(characteristic)
+                     : read_value(reading, section, value.key,
+                                  element_quantity(value.dimension, element.rotational), value.range);
+  }
+  return numbers;
 }
 
 void add_of_kind(NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
@@ -160,29 +179,18 @@ void add_of_kind(NetworkReading& reading, const TomlSection& section, const Elem
   element.law = read_law(section, kind);
   if (kind.law != nullptr) check_one_law(reading, section, kind, element.law);
   StudyCharacteristic characteristic = read_characteristic(reading, section, element.rotational, element);
-  element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;
   element.has_cubic = kind.cubic.exists() && section.find(kind.cubic.key) != nullptr;
-  const auto read = [&](const ValueKey& value, bool may_be_absent = false) {
-    return read_value(reading, section, value.key, element_quantity(value.dimension, element.rotational),
-                      value.range, may_be_absent ? std::optional(0.0) : std::nullopt);
-  };
-  const bool has_table = characteristic.kind == StudyCharacteristic::Kind::table ||
-                         characteristic.kind == StudyCharacteristic::Kind::curve;
-  const mechanics::Element added = element;
-  StudyValue value = has_table ? value_of_table(characteristic) : read(kind.value);
-  StudyValue second = kind.second.exists() ? read(kind.second, kind.second_is_optional) : StudyValue{};
-  add_element(reading, section, std::move(element), along, std::move(value), std::move(second));
-  StudyValues& values = reading.result.values;
-  switch (added.law) {
-    case mechanics::FrictionLaw::exact:
-    case mechanics::FrictionLaw::stribeck:  // its table is its characteristic
-      break;
-    case mechanics::FrictionLaw::arctan:
-      values.slope.back() = read(kind.slope);
-      break;
+  std::array<StudyValue, 4> numbers = read_numbers(reading, section, element, characteristic);
+  element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;
+  const std::vector<std::string> names = reading.parameters.names();
+  const auto text = [&](const StudyValue& value) { return value.expression.canonical_text(names); };
+  // static_force = "F" next to force = "F" is the kinetic force itself.
+  if (element.has_static_force && text(numbers[0]) == text(numbers[1])) {
+    element.has_static_force = false;
+    numbers[1] = {};
   }
-  if (added.has_cubic) values.cubic.back() = read(kind.cubic);
-  values.characteristic.back() = std::move(characteristic);
+  add_element(reading, section, std::move(element), along, std::move(numbers));
+  reading.result.values.characteristic.back() = std::move(characteristic);
 }
 
 }  // namespace

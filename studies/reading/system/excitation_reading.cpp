@@ -65,7 +65,7 @@ void read_rate(NetworkReading& reading, const TomlSection& section, const std::s
                StudyValue& amplitude, StudyValue& phase) {
   const bool is_velocity = key == "velocity";
   if (order == 0)
-    section.fail(rules::key_without_use, key,
+    section.fail(rules::beyond_schema(rules::key_without_use), key,
                  "a motion of order 0 has a constant displacement, or a constant velocity");
   amplitude = read_value(reading, section, key, is_velocity ? Quantity::speed : Quantity::acceleration);
   const Expression rate = Expression(order) * reading.result.values.omega.expression;
@@ -167,7 +167,7 @@ int lowest_order(const NetworkReading& reading, const TomlSection& section, bool
   }
   if (lowest == std::numeric_limits<int>::max()) {
     if (constant_will_do && !reading.result.network.excitations.empty()) return 1;
-    section.fail_here(rules::missing_section,
+    section.fail_here(rules::beyond_schema(rules::missing_section),
                       "nothing excites the system: it needs an [[excitation.force]] or [[excitation.motion]] "
                       "of order 1 or more");
   }
@@ -227,7 +227,8 @@ void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool 
   }
   read_recorded_components(reading, excitation);
   if (!section.find("frequency") && (!constant_will_do || needs_frequency(reading.result.network)))
-    section.fail_here(rules::missing_key, "the key \"frequency\" is missing (an angular frequency, rad/s)");
+    section.fail_here(rules::beyond_schema(rules::missing_key),
+                      "the key \"frequency\" is missing (an angular frequency, rad/s)");
   check_number_of_orders(reading, section);
   const int lowest = lowest_order(reading, section, constant_will_do);
   auto& reference = reading.result.network.reference_order;

@@ -35,8 +35,9 @@ void keep_key_to(const TomlSection& section, const char* key, FrictionLaw owner,
 FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
   if (!kind.can_be_smoothed()) return FrictionLaw::exact;
   const auto law = section.choice_as<FrictionLaw>("law");
-  keep_key_to(section, kind.second.key, FrictionLaw::exact, law);
-  keep_key_to(section, kind.slope.key, FrictionLaw::arctan, law);
+  for (const mechanics::ValueKey* value : kind.values()) {
+    if (value->law) keep_key_to(section, value->key, *value->law, law);
+  }
   keep_key_to(section, "table", FrictionLaw::stribeck, law);
   if (law == FrictionLaw::stribeck && section.find(kind.value.key))
     section.fail(rules::one_of_two_keys, kind.value.key,

@@ -43,8 +43,8 @@ std::vector<StudySlider> listed_sliders(NetworkReading& reading, const TomlSecti
   const auto forces =
       read_list(reading, section, "forces", force_of(rotational), range_of_type(iwan, "force"));
   if (stiffnesses.size() != forces.size())
-    section.fail(rules::wrong_length, "forces", "{} for {} stiffnesses; each slider needs one of each",
-                 forces.size(), stiffnesses.size());
+    section.fail(rules::beyond_schema(rules::wrong_length), "forces",
+                 "{} for {} stiffnesses; each slider needs one of each", forces.size(), stiffnesses.size());
   std::vector<StudySlider> sliders;
   for (std::size_t i = 0; i < forces.size(); ++i) sliders.push_back({stiffnesses[i], forces[i]});
   return sliders;

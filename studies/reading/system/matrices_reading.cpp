@@ -47,8 +47,8 @@ void check_size(const TomlSection& section, const std::string& key, const Eigen:
   if (matrix.rows() != matrix.cols())
     section.fail(rules::wrong_matrix, key, "is {} x {}, not square", matrix.rows(), matrix.cols());
   if (static_cast<std::size_t>(matrix.rows()) != names)
-    section.fail(rules::wrong_length, key, "is {} x {}, but {} name{} given", matrix.rows(), matrix.cols(),
-                 names, names == 1 ? " is" : "s are");
+    section.fail(rules::beyond_schema(rules::wrong_length), key, "is {} x {}, but {} name{} given",
+                 matrix.rows(), matrix.cols(), names, names == 1 ? " is" : "s are");
 }
 
 void check_symmetric(const TomlSection& section, const std::string& key, const Eigen::MatrixXd& matrix) {

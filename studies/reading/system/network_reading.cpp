@@ -143,8 +143,8 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
   }
   if (!value) {
     const bool pure = quantity == Quantity::number;
-    section.fail_here(rules::missing_key, "the key \"{}\" is missing ({}{}{})", key, quantity_name(quantity),
-                      pure ? "" : ", ", pure ? "" : written_si_unit(quantity));
+    section.fail_here(rules::missing_key_of_table, "the key \"{}\" is missing ({}{}{})", key,
+                      quantity_name(quantity), pure ? "" : ", ", pure ? "" : written_si_unit(quantity));
   }
   return read_value_at(reading, result.where, *value, quantity, range);
 }
@@ -221,7 +221,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
   read_matrices(reading, root, folder);
   if (reading.result.network.masses.empty())
     throw context.source.error_at(
-        rules::missing_section, root.position,
+        rules::beyond_schema(rules::missing_section), root.position,
         "the study has no [[mass]] and no [[matrices]]: nothing moves{}",
         kind == StudyKind::identify ? "; leave out the whole system, or add its masses" : "");
   if (is_forced) refuse_records(context, excitation->value, kind);

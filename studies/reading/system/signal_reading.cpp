@@ -25,8 +25,8 @@ void read_signals(NetworkReading& reading, const TomlValue& root) {
 
 void check_output_has_signals_alone(const Study& study, const TomlEntry& output, const std::string& why) {
   const auto refuse = [&](Position position, const std::string& what) {
-    throw study.source.error_at(rules::other_kind, position, "{} is not part of {}{}", what,
-                                kind_noun(study.kind()), why);
+    throw study.source.error_at(rules::beyond_schema(rules::other_kind), position, "{} is not part of {}{}",
+                                what, kind_noun(study.kind()), why);
   };
   if (!find_entry(output.value, "signal")) refuse(output.position, "the section \"output\"");
   for (const TomlEntry& entry : *output.value.as<TomlTable>()) {

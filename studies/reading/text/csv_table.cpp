@@ -97,7 +97,7 @@ void check_even(const std::vector<CsvRow>& rows, const std::string& name) {
     if (alike && row.cells.size() == first.cells.size()) continue;
     const std::string hint = row.separator == ',' ? ", and decimals are written with a point" : "";
     if (alike)
-      throw StudyError(rules::wrong_length,
+      throw StudyError(rules::beyond_schema(rules::wrong_length),
                        "{}:{}: {} cells, but {} in line {}; all rows must have the same number{}", name,
                        row.line, row.cells.size(), first.cells.size(), first.line, hint);
     throw StudyError(rules::wrong_row,

@@ -16,11 +16,20 @@ struct Rule {
 
   std::string_view key;
   By by = By::study;
+  bool is_in_schema = false;  // the JSON Schema of `frahm schema` refuses it too
 
   friend bool operator==(const Rule& a, const Rule& b) { return a.key == b.key; }
 };
 
 namespace rules {
+
+inline constexpr bool in_schema = true;
+
+// A rule of the schema where this mistake is beyond it: it takes other sections, files, units or expressions.
+constexpr Rule beyond_schema(Rule rule) {
+  rule.is_in_schema = false;
+  return rule;
+}
 
 // The text.
 inline constexpr Rule not_text{"not_text"};  // control characters, an open quote
@@ -28,27 +37,31 @@ inline constexpr Rule not_toml{"not_toml"};
 inline constexpr Rule too_large{"too_large"};  // the text, its nesting, a grid, a count of contacts
 
 // Sections and keys.
-inline constexpr Rule unknown_section{"unknown_section", Rule::By::itself};
-inline constexpr Rule missing_section{"missing_section"};
-inline constexpr Rule other_kind{"other_kind"};  // belongs to another kind of study
-inline constexpr Rule unknown_key{"unknown_key", Rule::By::itself};
-inline constexpr Rule missing_key{"missing_key"};
-inline constexpr Rule missing_key_of_table{"missing_key", Rule::By::table};  // whatever else the study says
-inline constexpr Rule one_of_two_keys{"one_of_two_keys",
-                                      Rule::By::table};    // one is needed, or they exclude each other
-inline constexpr Rule key_without_use{"key_without_use"};  // without effect with the other choices
+inline constexpr Rule unknown_section{"unknown_section", Rule::By::itself, in_schema};
+inline constexpr Rule missing_section{"missing_section", Rule::By::study, in_schema};
+inline constexpr Rule other_kind{"other_kind", Rule::By::study,
+                                 in_schema};  // belongs to another kind of study
+inline constexpr Rule unknown_key{"unknown_key", Rule::By::itself, in_schema};
+inline constexpr Rule missing_key{"missing_key", Rule::By::study, in_schema};
+inline constexpr Rule missing_key_of_table{"missing_key", Rule::By::table,
+                                           in_schema};  // whatever else the study says
+inline constexpr Rule one_of_two_keys{"one_of_two_keys", Rule::By::table,
+                                      in_schema};  // one is needed, or they exclude each other
+inline constexpr Rule key_without_use{"key_without_use", Rule::By::study,
+                                      in_schema};  // without effect with the other choices
 
 // Values.
-inline constexpr Rule wrong_type{"wrong_type", Rule::By::itself};
-inline constexpr Rule empty{"empty", Rule::By::itself};
-inline constexpr Rule not_a_name{"not_a_name", Rule::By::itself};
-inline constexpr Rule not_a_choice{"not_a_choice",
-                                   Rule::By::itself};  // not one of the words that a key allows
+inline constexpr Rule wrong_type{"wrong_type", Rule::By::itself, in_schema};
+inline constexpr Rule empty{"empty", Rule::By::itself, in_schema};
+inline constexpr Rule not_a_name{"not_a_name", Rule::By::itself, in_schema};
+inline constexpr Rule not_a_choice{"not_a_choice", Rule::By::itself,
+                                   in_schema};  // not one of the words that a key allows
 inline constexpr Rule not_finite{"not_finite", Rule::By::itself};
-inline constexpr Rule out_of_range{"out_of_range", Rule::By::table};
+inline constexpr Rule out_of_range{"out_of_range", Rule::By::table, in_schema};
 inline constexpr Rule wrong_order{"wrong_order",
                                   Rule::By::table};  // bounds, bands, knots and rows that do not rise
-inline constexpr Rule wrong_length{"wrong_length"};  // of lists that belong together
+inline constexpr Rule wrong_length{"wrong_length", Rule::By::study,
+                                   in_schema};  // of lists that belong together
 
 // Names.
 inline constexpr Rule unknown_name{"unknown_name", Rule::By::table};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ using TomlTable = std::vector<TomlEntry>;  // in the order of the file
 struct TomlValue {
   Position position;
   std::variant<bool, std::int64_t, double, std::string, TomlDate, TomlArray, TomlTable> content;
+  std::size_t number = 0;  // in its list, from 1, where others of the list may be left out
 
   template <class Type>
   const Type* as() const {

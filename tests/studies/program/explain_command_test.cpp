@@ -31,7 +31,7 @@ TEST_CASE("every type of element is explained by its force and its keys with uni
     INFO(kind.name);
     const std::string text = explained(kind.name);
     CHECK_THAT(text, Catch::Contains(std::string("its force is ") + kind.force));
-    for (const ValueKey* value : {&kind.value, &kind.second, &kind.slope, &kind.cubic}) {
+    for (const ValueKey* value : kind.values()) {
       if (!value->exists()) continue;
       const Quantity quantity = element_quantity(value->dimension, false);
       CHECK_THAT(text, Catch::Contains("  " + std::string(value->key)) &&

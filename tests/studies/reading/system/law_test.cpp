@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "studies/reading/parse_study.hpp"
@@ -141,6 +142,19 @@ TEST_CASE("each number of a smooth law has a place of its own") {
   const Study exact = study_of("type = \"coulomb\"\nforce = \"F\"\nstatic_force = 0.6\n");
   CHECK(values_of(exact).second[1] == 0.6);
   CHECK(values_of(exact).smooth.empty());
+}
+
+TEST_CASE("a static friction that is the kinetic one leaves a system with a single response") {
+  const std::string friction = "type = \"coulomb\"\nforce = \"F\"\n";
+  for (const char* same : {"", "static_force = \"F\"\n", "static_force = \" F\"\n"}) {
+    INFO(same);
+    const Study study = study_of(friction + same);
+    CHECK_FALSE(study.network.elements[1].has_static_force);
+    CHECK_FALSE(may_have_several_responses(study.network));
+    CHECK(values_of(study).element[1] == 0.5);
+    CHECK(values_of(study).second[1] == 0.0);
+  }
+  CHECK(may_have_several_responses(study_of(friction + "static_force = \"1.2*F\"\n").network));
 }
 
 }  // namespace
