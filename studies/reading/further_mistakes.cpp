@@ -12,6 +12,7 @@ namespace {
 struct LeftOut {
   std::vector<Position> from;      // where the tables begin that had it
   std::vector<std::string> words;  // its keys and texts, which others may refer to
+  bool has_names = false;          // of masses, elements, supports: what refers to them may be right
 
   void add(const TomlValue& value) {
     if (const auto* text = value.as<std::string>()) words.push_back(*text);
@@ -22,6 +23,7 @@ struct LeftOut {
   }
   void add(const TomlEntry& entry) {
     words.push_back(entry.key);
+    has_names = has_names || entry.key == "name" || entry.key == "names" || entry.key == "node";
     add(entry.value);
   }
 };
@@ -42,7 +44,8 @@ Position start_of(const TomlEntry& entry) {
 // What can be left out by itself: an entry of a table, or a table of a list.
 struct Part {
   Position start;
-  Position table;  // the one that has it
+  Position table;         // the one that has it
+  bool is_table = false;  // itself
 };
 
 template <class Visit>
@@ -50,11 +53,12 @@ void visit_parts(const TomlValue& value, Position table, const Visit& visit) {
   if (is_one_number(value)) return;
   if (const auto* entries = value.as<TomlTable>())
     for (const TomlEntry& each : *entries)
-      visit(Part{start_of(each), value.position}), visit_parts(each.value, value.position, visit);
+      visit(Part{start_of(each), value.position, each.value.as<TomlTable>() != nullptr}),
+          visit_parts(each.value, value.position, visit);
   if (const auto* list = value.as<TomlArray>())
     for (const TomlValue& each : *list)
       if (each.as<TomlTable>() && !is_one_number(each))
-        visit(Part{each.position, table}), visit_parts(each, table, visit);
+        visit(Part{each.position, table, true}), visit_parts(each, table, visit);
 }
 
 // The part in which a place of the text lies.
@@ -103,12 +107,29 @@ bool follows(const StudyError& error, const TomlValue& root, const LeftOut& left
   };
   if (error.rule().by == Rule::By::study || has_lost(error.position())) return true;
   if (error.rule().by == Rule::By::itself) return false;
+  if (error.rule() == rules::unknown_name && left_out.has_names) return true;
+  // A mistake at the start of a table is one of that table.
+  const Part part = part_at(root, error.position());
+  const bool is_of_part = part.is_table && part.start == error.position();
+  if (!is_of_part && has_lost(part.table)) return true;
+  if (error.rule() == rules::missing_key) return false;  // whose name is the program's, not the study's
   std::string_view message = error.what();
   message = message.substr(0, message.find('\n'));  // without the excerpt
-  return has_lost(part_at(root, error.position()).table) ||
-         std::ranges::any_of(left_out.words, [&](const std::string& word) {
-           return message.find("\"" + word + "\"") != std::string_view::npos;
-         });
+  return std::ranges::any_of(left_out.words, [&](const std::string& word) {
+    return message.find("\"" + word + "\"") != std::string_view::npos;
+  });
+}
+
+// Where they stand in their lists, whatever is left out before them.
+void number_tables(TomlValue& value) {
+  if (auto* table = std::get_if<TomlTable>(&value.content))
+    for (TomlEntry& each : *table) number_tables(each.value);
+  if (auto* list = std::get_if<TomlArray>(&value.content)) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      (*list)[i].number = i + 1;
+      number_tables((*list)[i]);
+    }
+  }
 }
 
 }  // namespace
@@ -117,6 +138,7 @@ StudyError with_further_mistakes(const StudyError& first, TomlValue root, const 
   constexpr std::size_t most_mistakes = 20;
   constexpr int most_readings = 100;
   std::vector<StudyError> mistakes{first};
+  number_tables(root);
   LeftOut left_out;
   StudyError last = first;
   for (int i = 0; i < most_readings && mistakes.size() < most_mistakes; ++i) {
@@ -132,7 +154,11 @@ StudyError with_further_mistakes(const StudyError& first, TomlValue root, const 
     } catch (const StudyError& next) {
       last = next;
     }
-    if (!follows(last, root, left_out)) mistakes.push_back(last);
+    // The same again, where what is left of a table is wrong for the same reason.
+    const auto is_last = [&last](const StudyError& each) {
+      return std::string_view(each.what()) == last.what();
+    };
+    if (!follows(last, root, left_out) && std::ranges::none_of(mistakes, is_last)) mistakes.push_back(last);
   }
   if (mistakes.size() == 1) return first;
   std::ranges::stable_sort(mistakes, {}, &StudyError::position);

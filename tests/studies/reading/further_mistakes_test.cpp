@@ -67,6 +67,28 @@ TEST_CASE("two mistakes in one table are both told") {
   CHECK(lines_of(refusal_of(with(study, {{"force = \"f\"", "force = \"f +\"\nslop = 2"}}))) == "28 29");
 }
 
+TEST_CASE("what is missing in one table says nothing of another") {
+  const std::string refusal =
+      refusal_of(with(study, {{"stiffness = 1\n", ""}, {"damping = \"2*zeta\"\n", ""}}));
+  CHECK(lines_of(refusal) == "14 18");
+}
+
+TEST_CASE("a table that is wrong for the same reason without its parts is told once") {
+  CHECK(lines_of(refusal_of(with(study, {{"[[excitation.force]]", "[[excitatio.force]]"}}))) == "31");
+}
+
+TEST_CASE("tables are counted as they stand in the file") {
+  const std::string refusal = refusal_of(
+      with(study, {{"\"spring\"\nbetween", "\"sprung\"\nbetween"}, {"name = \"friction\"", "name = 3"}}));
+  CHECK(lines_of(refusal) == "16 25");
+  CHECK_THAT(refusal, Catch::Contains("[[element]] 3: name"));
+}
+
+TEST_CASE("a name is not told to be unknown where what is left out may have it") {
+  CHECK(lines_of(refusal_of(with(study, {{"name = \"main\"", "name = \"m*\""}}))) == "12");
+  CHECK(lines_of(refusal_of(with(study, {{"name = \"main\"\n", ""}}))) == "11");
+}
+
 TEST_CASE("a text that is no TOML has one mistake") {
   CHECK(lines_of(refusal_of(with(study, {{"k = 1", "k = = 1"}, {"points = 31", "point = 31"}}))) == "10");
 }
