@@ -1,7 +1,7 @@
 #include "studies/identification/closed_form_methods.hpp"
 
-#include <cmath>
-#include <stdexcept>
+#include <algorithm>
+#include <iterator>
 
 #include "solvers/identification/added_mass.hpp"
 #include "solvers/identification/energy_balance.hpp"
@@ -100,29 +100,28 @@ Identification forced_resonance_of(const Study& study, const RecordChoice& recor
   return identification::forced_resonance(pairs, shaken_by(*study.identify()), known);
 }
 
-Identification energy_balance_of(const RecordChoice& record) {
+Identification energy_balance_of(const Study&, const RecordChoice& record) {
   return identification::energy_balance({.amplitude = column(record, "amplitude"),
                                          .energy = column(record, "energy"),
                                          .omega = column(record, "frequency"),
                                          .velocity_rms = column(record, "velocity_rms")});
 }
 
-Identification hysteresis_loop_of(const RecordChoice& record) {
+Identification hysteresis_loop_of(const Study&, const RecordChoice& record) {
   return identification::hysteresis_loop({.time = column(record, "time"),
                                           .displacement = column(record, "displacement"),
                                           .force = column(record, "force")});
 }
 
 // The natural frequency of each record by its free decay, unless a table gives them.
-Identification added_mass_of(const Study& study) {
-  const auto& records = study.identify()->records;
-  if (records.front().find("frequency"))
-    return identification::added_mass({.added = column(records.front(), "added_mass"),
-                                       .omega = column(records.front(), "frequency"),
-                                       .sigma = column(records.front(), "frequency_error")});
+Identification added_mass_of(const Study& study, const RecordChoice& first) {
+  if (first.find("frequency"))
+    return identification::added_mass({.added = column(first, "added_mass"),
+                                       .omega = column(first, "frequency"),
+                                       .sigma = column(first, "frequency_error")});
   identification::AddedMassRows rows;
   Identification decays;
-  for (const RecordChoice& record : records) {
+  for (const RecordChoice& record : study.identify()->records) {
     Identification decay = identification::free_decay(column(record, "time"), column(record, "displacement"),
                                                       identification::FreeDecayOptions{});
     if (!decay.failure.empty()) {
@@ -150,36 +149,18 @@ Identification added_mass_of(const Study& study) {
   return result;
 }
 
-Identification by_method(const Study& study) {
-  const RecordChoice& record = study.identify()->records.front();
-  switch (study.identify()->method) {
-    case IdentifyMethod::half_power:
-      return half_power_of(study, record);
-    case IdentifyMethod::resonance_magnification:
-      return magnification_of(study, record);
-    case IdentifyMethod::log_decrement:
-      return log_decrement_of(study, record);
-    case IdentifyMethod::free_decay:
-      return free_decay_of(study, record);
-    case IdentifyMethod::forced_resonance:
-      return forced_resonance_of(study, record);
-    case IdentifyMethod::energy_balance:
-      return energy_balance_of(record);
-    case IdentifyMethod::hysteresis_loop:
-      return hysteresis_loop_of(record);
-    case IdentifyMethod::added_mass:
-      return added_mass_of(study);
-    case IdentifyMethod::grey_box:
-      break;
-  }
-  throw std::logic_error("a grey box has no closed form");
-}
+// Of each method, in the order of IdentifyMethod. The last, a grey box, has no formula.
+constexpr Identification (*formulas[])(const Study&, const RecordChoice&) = {
+    half_power_of,       magnification_of,  log_decrement_of,   free_decay_of,
+    forced_resonance_of, energy_balance_of, hysteresis_loop_of, added_mass_of};
+static_assert(std::size(formulas) == static_cast<std::size_t>(IdentifyMethod::grey_box));
 
 }  // namespace
 
 Identification identify_in_closed_form(const Study& study) {
-  Identification result = by_method(study);
   const auto& records = study.identify()->records;
+  const auto formula = formulas[static_cast<std::size_t>(study.identify()->method)];
+  Identification result = formula(study, records.front());
   if (records.size() > 1) return result;  // that have their names
   for (identification::FittedRecord& fitted : result.records)
     fitted.name =

@@ -4,100 +4,10 @@
 
 #include <algorithm>
 
-#include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
-
-using Method = IdentifyMethod;
-
-constexpr std::size_t two_rows = 2;
-
-Role required(std::string name, Quantity quantity, Range range = Range::finite) {
-  return {std::move(name), quantity, range};
-}
-
-Role increasing(std::string name, Quantity quantity, Range range = Range::finite) {
-  return {std::move(name), quantity, range, true, true};
-}
-
-Role optional(std::string name, Quantity quantity, Range range = Range::finite) {
-  return {std::move(name), quantity, range, false};
-}
-
-RecordForm trace(std::vector<Role> roles) {
-  roles.insert(roles.begin(), increasing("time", Quantity::time));
-  return {std::move(roles), two_rows, true};
-}
-
-RecordForm response_curve() {
-  return {{increasing("frequency", Quantity::angular_frequency, Range::positive),
-           required("amplitude", Quantity::length, Range::positive)},
-          two_rows};
-}
-
-// The forms of a free vibration of one mass: as sampled, or its extremes alone.
-std::vector<RecordForm> decay_forms() {
-  Role extremum_time = increasing("extremum_time", Quantity::time);
-  extremum_time.required = false;
-  return {trace({required("displacement", Quantity::length)}),
-          {{required("extremum", Quantity::length), extremum_time}, two_rows}};
-}
-
-std::vector<RecordForm> half_power_forms() {
-  const auto frequency = [](const char* name) {
-    return required(name, Quantity::angular_frequency, Range::positive);
-  };
-  return {response_curve(),
-          {{frequency("natural_frequency"), frequency("lower_frequency"), frequency("upper_frequency")}}};
-}
-
-std::vector<RecordForm> magnification_forms() {
-  return {response_curve(),
-          {{required("static_displacement", Quantity::length, Range::positive),
-            required("resonant_displacement", Quantity::length, Range::positive)}}};
-}
-
-std::vector<RecordForm> resonance_forms(CurveOf curve) {
-  const Role excitation = curve == CurveOf::support ? required("support", Quantity::length, Range::positive)
-                                                    : required("force", Quantity::force, Range::positive);
-  return {{{required("response", Quantity::length, Range::positive), excitation}, two_rows},
-          {{required("slope", Quantity::number, Range::positive), required("intercept", Quantity::length)}}};
-}
-
-std::vector<RecordForm> energy_forms() {
-  return {{{required("amplitude", Quantity::length, Range::positive), required("energy", Quantity::energy),
-            required("frequency", Quantity::angular_frequency, Range::positive),
-            optional("velocity_rms", Quantity::speed, Range::positive)},
-           two_rows}};
-}
-
-std::vector<RecordForm> added_mass_forms() {
-  return {trace({required("displacement", Quantity::length)}),
-          {{required("added_mass", Quantity::mass, Range::not_negative),
-            required("frequency", Quantity::angular_frequency, Range::positive),
-            optional("frequency_error", Quantity::angular_frequency, Range::positive)},
-           two_rows}};
-}
-
-std::vector<RecordForm> grey_box_forms(const mechanics::Network& network) {
-  std::vector<Role> roles;
-  for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    const std::string& mass = network.masses[i];
-    const bool turns = mechanics::rotates(network, i);
-    roles.push_back(optional(mass + "_displacement", turns ? Quantity::angle : Quantity::length));
-    roles.push_back(optional(mass + "_velocity", turns ? Quantity::angular_frequency : Quantity::speed));
-    roles.push_back(
-        optional(mass + "_acceleration", turns ? Quantity::angular_acceleration : Quantity::acceleration));
-  }
-  for (std::size_t i = 0; i < network.masses.size(); ++i)
-    roles.push_back(optional(network.masses[i] + "_force",
-                             mechanics::rotates(network, i) ? Quantity::torque : Quantity::force));
-  for (const std::string& support : network.prescribed)
-    roles.push_back(optional(support + "_displacement", Quantity::length));
-  return {trace(std::move(roles))};
-}
 
 std::size_t required_there(const RecordForm& form, const std::vector<std::string>& found) {
   return static_cast<std::size_t>(std::count_if(form.roles.begin(), form.roles.end(), [&](const Role& role) {
@@ -116,29 +26,6 @@ const Role* RecordForm::find(const std::string& name) const {
   const auto role =
       std::find_if(roles.begin(), roles.end(), [&](const Role& each) { return each.name == name; });
   return role == roles.end() ? nullptr : &*role;
-}
-
-std::vector<RecordForm> record_forms(const Study& study) {
-  switch (study.identify()->method) {
-    case Method::half_power:
-      return half_power_forms();
-    case Method::resonance_magnification:
-      return magnification_forms();
-    case Method::log_decrement:
-    case Method::free_decay:
-      return decay_forms();
-    case Method::forced_resonance:
-      return resonance_forms(study.identify()->curve);
-    case Method::energy_balance:
-      return energy_forms();
-    case Method::hysteresis_loop:
-      return {trace({required("displacement", Quantity::length), required("force", Quantity::force)})};
-    case Method::added_mass:
-      return added_mass_forms();
-    case Method::grey_box:
-      break;
-  }
-  return grey_box_forms(study.network);
 }
 
 std::vector<std::string> role_names(const std::vector<RecordForm>& forms) {

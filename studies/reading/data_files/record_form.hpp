@@ -7,7 +7,7 @@
 #include "studies/reading/quantities/units.hpp"
 #include "studies/reading/study/study.hpp"
 
-// Which columns a record of measurements has, by the method that reads it.
+// Which columns a record of measurements has. The forms of each method: identify_methods.hpp.
 namespace frahm::studies {
 
 // The meaning of a column of measurements.
@@ -24,6 +24,8 @@ struct RecordForm {
   std::vector<Role> roles;
   std::size_t least_rows = 1;
   bool is_trace = false;  // over time: no row has a label
+  // A key of the record that this form needs and the method's other forms have no use for, and its meaning.
+  std::string key{}, meaning_of_key{};
 
   const Role* find(const std::string& name) const;
 };
@@ -31,10 +33,6 @@ struct RecordForm {
 // Further columns: labels in every form except traces, doubtful marks in every form.
 inline constexpr const char* label_role = "label";
 inline constexpr const char* doubtful_role = "doubtful";  // 1: the row is left out; 0: it counts
-
-// The forms that a record of the study may have, the first preferred. Of a grey box: time, and
-// <mass>_displacement, <mass>_velocity, <mass>_acceleration, <mass>_force and <support>_displacement.
-std::vector<RecordForm> record_forms(const Study& study);
 
 // All names that a column may have in any form.
 std::vector<std::string> role_names(const std::vector<RecordForm>& forms);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <stdexcept>
 
@@ -33,9 +34,16 @@ constexpr Needed needed_of(const char* decider, const char* forms) {
   return {.of = {decider, forms}};
 }
 
-constexpr const char* formulas =
-    "half_power|resonance_magnification|log_decrement|free_decay|forced_resonance|energy_balance|"
-    "hysteresis_loop|added_mass";
+// The methods of identification but the last, the grey box: "half_power|resonance_magnification|...".
+constexpr auto formulas = [] {
+  std::array<char, 256> text{};
+  char* end = text.data();
+  for (const StudyWord& method : std::span(words::methods).first(std::size(words::methods) - 1)) {
+    if (end != text.data()) *end++ = '|';
+    end = std::ranges::copy(std::string_view(method.word), end).out;
+  }
+  return text;
+}();
 
 constexpr double most_contacts = periodic::kMostContacts;
 constexpr double highest_order = 1000;  // events are searched on samples of the highest one over a period
@@ -476,7 +484,7 @@ constexpr StudyKey all_keys[] = {
     {"identify.parameter", "each_record", KeyForm::boolean, Use::physics,
      "true: it has its own value in every record", of("method", "grey_box")},
     {"identify.parameter", "estimate", KeyForm::name, Use::physics, "the estimate of a formula that it takes",
-     of("method", formulas), needed},
+     of("method", formulas.data()), needed},
     {"{ value, unit }", "value", KeyForm::number, Use::physics, "the number", needed},
     {"{ value, unit }", "unit", KeyForm::text, Use::physics,
      "its unit, as UDUNITS writes it: \"kN/m\", \"rpm\", \"degree\""},

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "studies/reading/data_files/identify_methods.hpp"
+#include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/kinds/identify_reading.hpp"
 #include "studies/reading/quantities/parameters.hpp"
 #include "studies/reading/study/named_parameter.hpp"
@@ -15,59 +17,6 @@
 
 namespace frahm::studies {
 namespace {
-
-using Method = IdentifyMethod;
-
-// The estimates of each method that a parameter of a system can take.
-std::vector<std::string> estimates_of(const IdentifyChoice& choice) {
-  const bool is_known = choice.mass || choice.stiffness;
-  const bool is_curve = choice.records.front().find("amplitude") != nullptr;  // not a table of answers by row
-  std::vector<std::string> names;
-  const auto add = [&](std::initializer_list<const char*> more) {
-    names.insert(names.end(), more.begin(), more.end());
-  };
-  switch (choice.method) {
-    case Method::half_power:
-      if (is_curve)
-        add({"damping_ratio", "damping_ratio_first_order", "peak_frequency", "natural_frequency",
-             "lower_frequency", "upper_frequency"});
-      break;
-    case Method::resonance_magnification:
-      add({"damping_ratio", "damping_ratio_first_order"});
-      if (is_curve) add({"peak_frequency", "peak_amplitude"});
-      break;
-    case Method::log_decrement:
-      add({"log_decrement", "damping_ratio", "damping_ratio_first_order", "damped_frequency",
-           "natural_frequency", "log_decrement_over_cycles", "damping_ratio_over_cycles",
-           "damping_ratio_first_order_over_cycles"});
-      break;
-    case Method::free_decay:
-      add({"damping_ratio", "friction_displacement", "natural_frequency", "damped_frequency",
-           "damping_ratio_first", "friction_displacement_first"});
-      if (choice.sensor_offset) add({"offset"});
-      if (is_known) add({"damping", "friction_force", choice.mass ? "stiffness" : "mass"});
-      break;
-    case Method::forced_resonance:
-      add({"slope", "intercept", "damping_ratio_line", "friction_displacement_line", "damping_ratio",
-           "friction_displacement"});
-      if (choice.mass && choice.stiffness) add({"damping", "damping_line"});
-      if (choice.stiffness) add({"friction_force", "friction_force_line"});
-      break;
-    case Method::energy_balance:
-      add({"damping", "friction_force"});
-      break;
-    case Method::hysteresis_loop:
-      add({"energy_loss", "amplitude", "frequency", "storage_stiffness", "loss_factor", "equivalent_damping",
-           "equivalent_friction"});
-      break;
-    case Method::added_mass:
-      add({"mass", "stiffness"});
-      break;
-    case Method::grey_box:
-      break;
-  }
-  return names;
-}
 
 bool reads(const Study& study, const StudyValue& value, std::size_t parameter) {
   const auto inputs = study.parameters.inputs_of(value.expression.reads());
@@ -135,7 +84,7 @@ void read_bounds(const Study& study, const TomlSection& section, IdentifiedParam
 void read_estimate(const IdentifyReading& reading, const TomlSection& section, IdentifiedParameter& taken) {
   const std::string method = method_name(reading.choice.method);
   section.keep_to(method);
-  const std::vector<std::string> known = estimates_of(reading.choice);
+  const std::vector<std::string> known = separated(method_row(reading.study).estimates);
   taken.estimate = section.text("estimate");
   if (reading.data == DataFiles::leave) return;  // the estimates depend on the data
   if (std::find(known.begin(), known.end(), taken.estimate) == known.end())
@@ -152,7 +101,7 @@ void read_identified_parameters(IdentifyReading& reading, const TomlSection& sec
   identified.position = section.position();
   identified.parameter = read_parameter(reading, section);
   identified.unit = read_parameter_unit(reading.context, section, reading.study, identified.parameter);
-  if (reading.choice.method == Method::grey_box) {
+  if (reading.choice.method == IdentifyMethod::grey_box) {
     if (section.find("estimate"))
       section.fail(rules::key_without_use, "estimate",
                    "a grey box estimates the parameters themselves; leave out this key");

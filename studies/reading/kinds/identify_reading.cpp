@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "studies/reading/data_files/identify_methods.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/kinds/fixed_estimates.hpp"
 #include "studies/reading/kinds/identified_parameters.hpp"
@@ -103,17 +104,14 @@ void check_start(const TomlSection& section, const Study& study, const IdentifyC
                  "\"free_decay\" needs a record with motion = \"free\" and {}", role);
 }
 
-// The method's formula needs one record; only the frequencies with and without an added mass need a trace
-// each.
-void check_count(const TomlSection& section, const IdentifyChoice& choice,
-                 const std::vector<TomlSection>& records) {
-  if (choice.method == Method::grey_box) return;
+// The method's formula needs one record, or a trace from each.
+void check_count(const Study& study, const std::vector<TomlSection>& records) {
+  const IdentifyChoice& choice = *study.identify();
+  const bool several_traces = method_row(study).several_traces;
   for (std::size_t i = 1; i < records.size(); ++i) {
-    const bool traces = choice.records[0].find("time") && choice.records[i].find("time");
-    if (choice.method == Method::added_mass && traces) continue;
+    if (several_traces && choice.records[0].find("time") && choice.records[i].find("time")) continue;
     records[i].fail_here(rules::unfit_for_method, "the method \"{}\" takes one record{}",
-                         section.text("method"),
-                         choice.method == Method::added_mass ? " with a table, or traces only" : "");
+                         method_name(choice.method), several_traces ? " with a table, or traces only" : "");
   }
 }
 
@@ -187,7 +185,7 @@ void read_measurements(const StudyContext& context, const TomlValue& root,
     read_identified_parameters(reading, parameter);
   if (!formula) read_all_records();
   if (data == DataFiles::leave) return;
-  check_count(section, choice, records);
+  check_count(study, records);
   check_stiffness(section, choice);
   check_reference_frequency(section, study, choice);
   if (const std::string one = needs_one_response(study); !one.empty()) refuse_several_responses(study, one);

@@ -6,6 +6,7 @@
 
 #include "solvers/transient/record_course.hpp"
 #include "studies/reading/data_files/column_in_si.hpp"
+#include "studies/reading/data_files/identify_methods.hpp"
 #include "studies/reading/data_files/record_columns.hpp"
 #include "studies/reading/kinds/identify_reading.hpp"
 #include "studies/reading/study/assignment_reading.hpp"
@@ -17,7 +18,6 @@ namespace frahm::studies {
 namespace {
 
 using identification::MotionKind;
-using Method = IdentifyMethod;
 
 const TomlEntry* unit_entry(const TomlSection& section, const std::string& role) {
   const TomlValue* units = section.find("units");
@@ -118,7 +118,7 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
   if (!any(is_motion))
     section.fail(rules::unknown_column, section.find("columns") ? "columns" : "file",
                  "no motion of a mass was measured; the columns are {}",
-                 described(record_forms(study).front()));
+                 described(method_row(study).forms.front()));
   const bool measured = any(is_excitation), stated = !study.network.excitations.empty();
   const std::string word = section.choice("motion", measured || stated ? "forced" : "free");
   record.motion = word == "free"     ? MotionKind::free
@@ -164,28 +164,24 @@ void read_settings(const IdentifyReading& reading, const TomlSection& section, R
 }
 
 // Each key of a record belongs to the methods, and the forms of their data, that use it.
-void check_keys(const IdentifyReading& reading, const TomlSection& section, const RecordForm& form) {
-  const Method method = reading.choice.method;
-  section.keep_to(method_name(method));
-  const auto check = [&](const char* key, bool wanted, const char* rule) {
-    if (section.find(key) && !wanted)
-      section.fail(rules::beyond_schema(rules::key_without_use), key, "has no use here; {}", rule);
-    if (!section.find(key) && wanted)
-      section.fail_here(rules::beyond_schema(rules::missing_key), "the key \"{}\" is missing; {}", key, rule);
-  };
-  check("added_mass", method == Method::added_mass && form.is_trace,
-        "it is the mass added while the trace of a record of the method \"added_mass\" was taken; 0 if none "
-        "was");
-  check("static_displacement", method == Method::resonance_magnification && form.find("amplitude"),
-        "for a response curve of the method \"resonance_magnification\" it is the displacement at rest under "
-        "the force, or the amplitude of the support");
+void check_keys(const IdentifyReading& reading, const TomlSection& section,
+                const std::vector<RecordForm>& forms, const RecordForm& form) {
+  section.keep_to(method_name(reading.choice.method));
+  for (const RecordForm& each : forms) {
+    if (each.key.empty() || (section.find(each.key) != nullptr) == (each.key == form.key)) continue;
+    if (section.find(each.key))
+      section.fail(rules::beyond_schema(rules::key_without_use), each.key, "has no use here; {}",
+                   each.meaning_of_key);
+    section.fail_here(rules::beyond_schema(rules::missing_key), "the key \"{}\" is missing; {}", each.key,
+                      each.meaning_of_key);
+  }
 }
 
 }  // namespace
 
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   if (reading.data == DataFiles::leave) return read_settings(reading, section, record);
-  const std::vector<RecordForm> forms = record_forms(reading.study);
+  const std::vector<RecordForm> forms = method_row(reading.study).forms;
   reading.choice.files.push_back(reading.folder / record.file);
   RawRecord raw = read_columns(section, reading.folder, forms);
   std::vector<std::string> roles;
@@ -196,9 +192,9 @@ void read_record(IdentifyReading& reading, const TomlSection& section, RecordCho
         rules::doubtful_row, "file",
         "turning points follow each other, so none can be left out as doubtful; cut the table there");
   check_count(section, raw, form);
-  check_keys(reading, section, form);
+  check_keys(reading, section, forms, form);
   take_columns(reading, section, raw, record);
-  if (reading.choice.method != Method::grey_box) return;
+  if (reading.choice.method != IdentifyMethod::grey_box) return;
   read_motion_kind(reading, section, record);
   if (raw.first_is_doubtful && record.motion != MotionKind::periodic)
     section.fail(rules::doubtful_row, "file",
