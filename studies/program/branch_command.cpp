@@ -65,11 +65,8 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
                     const std::optional<std::string>& given, bool is_upper) {
   const std::string& name = study.parameters.list[parameter].name;
   if (given) return parse_assignments(study, option, name + "=" + *given).front().value;
-  for (const ParameterAxis& axis : study.map()->axes) {
-    if (axis.parameter != parameter) continue;
-    const auto [least, most] = std::ranges::minmax_element(axis.si_values);
-    return is_upper ? *most : *least;
-  }
+  if (const auto* axis = of_parameter(study.map()->axes, parameter))
+    return is_upper ? std::ranges::max(axis->si_values) : std::ranges::min(axis->si_values);
   throw StudyError(rules::wrong_option, "--along {}: it is not an axis of the study, so give {}", name,
                    option);
 }

@@ -44,15 +44,10 @@ std::vector<std::size_t> in_order_of_names(const Parameters& parameters) {
 }
 
 void add_parameters(const Study& study, CanonicalText& text) {
-  const auto on_axis = [&](std::size_t i) {
-    if (study.tune() && study.tune()->band && study.tune()->band->parameter == i) return true;
-    return study.map() && std::ranges::any_of(study.map()->axes,
-                                              [&](const ParameterAxis& axis) { return axis.parameter == i; });
-  };
   const auto names = study.parameters.names();
   for (const std::size_t i : in_order_of_names(study.parameters)) {
     const auto& definition = study.parameters.list[i].definition;
-    if (on_axis(i)) {
+    if (has_axis(study, i)) {
       text.line("parameter {} axis", names[i]);
     } else if (const auto* number = std::get_if<double>(&definition)) {
       text.line("parameter {} number {}", names[i], *number);

@@ -19,13 +19,6 @@
 namespace frahm::studies {
 namespace {
 
-bool is_on_axis(const Study& study, std::size_t parameter) {
-  if (study.tune() && study.tune()->band && study.tune()->band->parameter == parameter) return true;
-  return study.map() && std::ranges::any_of(study.map()->axes, [&](const ParameterAxis& axis) {
-           return axis.parameter == parameter;
-         });
-}
-
 // The study's text as a document, with the numbers that its parameters have in this run. Those on an axis are
 // left out: their values are that of the axis.
 TomlValue document_of(const Study& study) {
@@ -38,7 +31,7 @@ TomlValue document_of(const Study& study) {
     const auto found = std::ranges::find(names, entry.key);
     if (found == names.end()) continue;
     const auto i = static_cast<std::size_t>(found - names.begin());
-    if (is_on_axis(study, i)) continue;
+    if (has_axis(study, i)) continue;
     if (const auto* number = std::get_if<double>(&study.parameters.list[i].definition))
       entry.value = toml_parameter(study, i, *number);
     in_this_run.push_back(std::move(entry));

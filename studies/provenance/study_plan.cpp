@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 
 #include "studies/provenance/fingerprint.hpp"
 #include "studies/reading/study/assignment.hpp"
@@ -11,17 +10,12 @@ namespace frahm::studies {
 namespace {
 
 std::string overruled_by_measurements(const IdentifyChoice& choice, std::size_t parameter) {
-  for (const IdentifiedParameter& fitted : choice.parameters) {
-    if (fitted.parameter == parameter) return "is identified; set the start value of the fit in [parameters]";
-  }
-  for (const FixedEstimate& fixed : choice.fixed) {
-    if (fixed.parameter == parameter) return "has its value from fixed_from; leave out that file";
-  }
+  if (of_parameter(choice.parameters, parameter))
+    return "is identified; set the start value of the fit in [parameters]";
+  if (of_parameter(choice.fixed, parameter)) return "has its value from fixed_from; leave out that file";
   for (const RecordChoice& record : choice.records) {
-    for (const Assignment& assignment : record.set) {
-      if (assignment.parameter == parameter)
-        return fmt::format("is set by the record \"{}\"; change the record", record.name);
-    }
+    if (of_parameter(record.set, parameter))
+      return fmt::format("is set by the record \"{}\"; change the record", record.name);
   }
   return "";
 }
@@ -29,22 +23,15 @@ std::string overruled_by_measurements(const IdentifyChoice& choice, std::size_t 
 // The part of the study that overrides a parameter, so that a command-line value has no effect; empty if
 // none.
 std::string overruled_by(const Study& study, std::size_t parameter) {
-  if (study.map()) {
-    for (const ParameterAxis& axis : study.map()->axes) {
-      if (axis.parameter == parameter) return "runs along an axis of the map; change the axis";
-    }
-  }
+  if (study.map() && has_axis(study, parameter)) return "runs along an axis of the map; change the axis";
   if (study.identify()) return overruled_by_measurements(*study.identify(), parameter);
   if (!study.tune()) return "";
-  if (study.tune()->band && study.tune()->band->parameter == parameter)
-    return "runs over the band of the tuning; change the band";
+  if (has_axis(study, parameter)) return "runs over the band of the tuning; change the band";
   for (const ScenarioChoice& scenario : study.tune()->scenarios) {
-    for (const Assignment& assignment : scenario.set) {
-      if (assignment.parameter == parameter)
-        return study.tune()->drawn.empty()
-                   ? fmt::format("is set by the scenario \"{}\"; change the scenario", scenario.name)
-                   : "scatters over samples; change their distribution";
-    }
+    if (!of_parameter(scenario.set, parameter)) continue;
+    return study.tune()->drawn.empty()
+               ? fmt::format("is set by the scenario \"{}\"; change the scenario", scenario.name)
+               : "scatters over samples; change their distribution";
   }
   return "";
 }

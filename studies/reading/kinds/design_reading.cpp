@@ -33,14 +33,10 @@ std::size_t read_design_parameter(const TuneReading& reading, const TomlSection&
   const std::size_t parameter = read_number_parameter(section, reading.study.parameters, "parameter",
                                                       "a design parameter needs one that is a number");
   const std::string& name = reading.study.parameters.list[parameter].name;
-  const auto& designs = reading.choice.designs;
-  const auto twice = std::find_if(designs.begin(), designs.end(),
-                                  [&](const DesignChoice& other) { return other.parameter == parameter; });
-  if (twice != designs.end())
+  if (const auto* twice = of_parameter(reading.choice.designs, parameter))
     section.fail(rules::given_twice, "parameter", "\"{}\" is already a design parameter (line {})", name,
                  twice->position.line);
-  const auto& band = reading.choice.band;
-  if (band && band->parameter == parameter)
+  if (runs_over_band(reading.choice, parameter))
     section.fail(rules::beyond_schema(rules::key_without_use), "parameter",
                  "\"{}\" runs over the band, so it cannot be tuned", name);
   if (!network_depends_on(reading.study, parameter))
@@ -172,16 +168,13 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
 }
 
 Assignment read_setting(const TuneReading& reading, const TomlSection& scenario, const TomlEntry& entry) {
-  return read_assignment(reading.context, reading.study, scenario.where() + ": set", entry,
-                         [&](std::size_t parameter) -> std::string {
-                           for (const DesignChoice& design : reading.choice.designs) {
-                             if (design.parameter == parameter)
-                               return "it is tuned, so a scenario cannot set it";
-                           }
-                           const bool band =
-                               reading.choice.band && reading.choice.band->parameter == parameter;
-                           return band ? "it runs over the band, so a scenario cannot set it" : "";
-                         });
+  return read_assignment(
+      reading.context, reading.study, scenario.where() + ": set", entry, [&](std::size_t parameter) {
+        return of_parameter(reading.choice.designs, parameter) ? "it is tuned, so a scenario cannot set it"
+               : runs_over_band(reading.choice, parameter)
+                   ? "it runs over the band, so a scenario cannot set it"
+                   : "";
+      });
 }
 
 void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t number) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "studies/reading/data_files/earlier_estimates.hpp"
@@ -15,25 +14,17 @@
 namespace frahm::studies {
 namespace {
 
-bool is_fitted(const IdentifyChoice& choice, std::size_t parameter) {
-  return std::any_of(choice.parameters.begin(), choice.parameters.end(),
-                     [&](const IdentifiedParameter& fitted) { return fitted.parameter == parameter; });
-}
-
 void check_free_to_fix(const IdentifyReading& reading, const EarlierEstimates& earlier, std::size_t i,
                        std::size_t parameter) {
   const IdentifyChoice& choice = reading.choice;
   const auto fail = [&](Rule rule, const std::string& problem) {
     throw StudyError(rule, "{}: the estimate \"{}\" {}", earlier.file, earlier.names[i], problem);
   };
-  for (const FixedEstimate& other : choice.fixed) {
-    if (other.parameter == parameter) fail(rules::given_twice, "is also in an earlier file of fixed_from");
-  }
+  if (of_parameter(choice.fixed, parameter))
+    fail(rules::given_twice, "is also in an earlier file of fixed_from");
   for (const RecordChoice& record : choice.records) {
-    for (const Assignment& assignment : record.set) {
-      if (assignment.parameter == parameter)
-        fail(rules::given_twice, fmt::format("fixes a parameter that the record \"{}\" sets", record.name));
-    }
+    if (of_parameter(record.set, parameter))
+      fail(rules::given_twice, fmt::format("fixes a parameter that the record \"{}\" sets", record.name));
   }
   if (!std::isfinite(earlier.values[i]))
     fail(rules::wrong_file, "was not determined by its data, so it cannot fix a value");
@@ -49,7 +40,8 @@ std::vector<Taken> taken_from(const IdentifyReading& reading, const EarlierEstim
   const Parameters& parameters = reading.study.parameters;
   for (std::size_t i = 0; i < earlier.names.size(); ++i) {
     const auto index = parameters.find(earlier.names[i]);
-    if (!index || !parameters.list[*index].is_number() || is_fitted(reading.choice, *index)) continue;
+    if (!index || !parameters.list[*index].is_number() || of_parameter(reading.choice.parameters, *index))
+      continue;
     check_unit(reading.context, earlier, i, parameters.list[*index]);
     check_free_to_fix(reading, earlier, i, *index);
     taken.push_back({i, *index});
@@ -57,7 +49,7 @@ std::vector<Taken> taken_from(const IdentifyReading& reading, const EarlierEstim
   if (!taken.empty()) return taken;
   std::vector<std::string> open;
   for (std::size_t i = 0; i < parameters.list.size(); ++i) {
-    if (parameters.list[i].is_number() && !is_fitted(reading.choice, i))
+    if (parameters.list[i].is_number() && !of_parameter(reading.choice.parameters, i))
       open.push_back(parameters.list[i].name);
   }
   throw StudyError(rules::unknown_name,

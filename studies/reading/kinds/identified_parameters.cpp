@@ -42,11 +42,9 @@ std::size_t read_parameter(const IdentifyReading& reading, const TomlSection& se
   const std::size_t index = read_number_parameter(section, reading.study.parameters, "parameter",
                                                   "only one that is a number can be identified");
   const std::string& name = reading.study.parameters.list[index].name;
-  for (const IdentifiedParameter& other : reading.choice.parameters) {
-    if (other.parameter == index)
-      section.fail(rules::given_twice, "parameter", "\"{}\" is already identified (line {})", name,
-                   other.position.line);
-  }
+  if (const auto* other = of_parameter(reading.choice.parameters, index))
+    section.fail(rules::given_twice, "parameter", "\"{}\" is already identified (line {})", name,
+                 other->position.line);
   if (!system_depends_on(reading.study, index))
     section.fail(rules::wrong_dependence, "parameter",
                  "no value of the system or of its start depends on \"{}\"", name);

@@ -143,14 +143,11 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
 }
 
 Assignment read_setting(const IdentifyReading& reading, const TomlSection& section, const TomlEntry& entry) {
-  return read_assignment(reading.context, reading.study, section.where() + ": set", entry,
-                         [&](std::size_t parameter) -> std::string {
-                           const auto& fitted = reading.choice.parameters;
-                           const bool is_fitted =
-                               std::any_of(fitted.begin(), fitted.end(),
-                                           [&](const auto& each) { return each.parameter == parameter; });
-                           return is_fitted ? "it is fitted, so a record cannot set it" : "";
-                         });
+  return read_assignment(
+      reading.context, reading.study, section.where() + ": set", entry, [&](std::size_t parameter) {
+        return of_parameter(reading.choice.parameters, parameter) ? "it is fitted, so a record cannot set it"
+                                                                  : "";
+      });
 }
 
 void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {

@@ -167,12 +167,10 @@ void check_weight(const TuneReading& reading, const TomlSection& section) {
                  "a variance has no weight over frequencies");
   const Parameters& parameters = reading.study.parameters;
   for (const std::size_t input : parameters.inputs_of(choice.weight->expression.reads())) {
-    const bool designed = std::any_of(choice.designs.begin(), choice.designs.end(),
-                                      [&](const DesignChoice& design) { return design.parameter == input; });
-    bool set = false;
-    for (const ScenarioChoice& scenario : choice.scenarios) {
-      for (const Assignment& assignment : scenario.set) set = set || assignment.parameter == input;
-    }
+    const bool designed = of_parameter(choice.designs, input);
+    const bool set = std::ranges::any_of(choice.scenarios, [&](const ScenarioChoice& scenario) {
+      return of_parameter(scenario.set, input) != nullptr;
+    });
     if (designed || set)
       section.fail(rules::wrong_dependence, "weight",
                    "depends on \"{}\", which the {}; a weight may depend only on the band",

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "studies/reading/kinds/tune_reading.hpp"
@@ -32,8 +31,7 @@ const TomlValue& axis_of_samples(const TuneReading& reading) {
 }
 
 void check_not_tuned(const TuneReading& reading, const ParameterAxis& axis) {
-  const auto is_it = [&](const DesignChoice& design) { return design.parameter == axis.parameter; };
-  if (!std::ranges::any_of(reading.choice.designs, is_it)) return;
+  if (!of_parameter(reading.choice.designs, axis.parameter)) return;
   const std::string& name = reading.study.parameters.list[axis.parameter].name;
   throw reading.context.source.error_at(
       rules::wrong_dependence, axis.position,

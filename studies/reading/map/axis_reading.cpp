@@ -14,11 +14,9 @@ namespace frahm::studies {
 std::optional<Refusal> why_no_axis(const Study& study, const std::string& name) {
   if (auto refusal = why_not_a_number(study.parameters, name, "an axis needs one that is a number"))
     return refusal;
-  for (const ParameterAxis& other : study.map()->axes) {
-    if (other.parameter != *study.parameters.find(name)) continue;
+  if (const auto* other = of_parameter(study.map()->axes, *study.parameters.find(name)))
     return Refusal{rules::given_twice,
-                   fmt::format("\"{}\" already has an axis (line {})", name, other.position.line)};
-  }
+                   fmt::format("\"{}\" already has an axis (line {})", name, other->position.line)};
   return std::nullopt;
 }
 

@@ -60,18 +60,14 @@ std::vector<Assignment> read_row(const StudyContext& context, const Study& study
                                   "{}: a row is a table such as {{ f = 0.1 }}, found {}", where,
                                   entries ? "an empty table" : described(value));
   const auto& axes = study.map()->axes;
-  const auto axis_of = [&](std::size_t parameter) {
-    return std::ranges::find(axes, parameter, &ParameterAxis::parameter);
-  };
-  const WhyNot why_not = [&](std::size_t parameter) -> std::string {
-    const auto axis = axis_of(parameter);
-    if (axis == axes.end()) return "it is not an axis of the map";
-    return axis == axes.begin() + static_cast<std::ptrdiff_t>(along) ? "the branches follow it" : "";
+  const WhyNot why_not = [&](std::size_t parameter) {
+    const ParameterAxis* axis = of_parameter(axes, parameter);
+    return !axis ? "it is not an axis of the map" : axis == &axes[along] ? "the branches follow it" : "";
   };
   std::vector<Assignment> row;
   for (const TomlEntry& entry : *entries) {
     row.push_back(read_assignment(context, study, where, entry, why_not));
-    const auto axis = axis_of(row.back().parameter);
+    const ParameterAxis* axis = of_parameter(axes, row.back().parameter);
     const auto is_value = [&](double each) { return is_on_axis(row.back().value, each); };
     if (std::ranges::any_of(axis->si_values, is_value)) continue;
     const double wanted = row.back().value / axis->si_factor;

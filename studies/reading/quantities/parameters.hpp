@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -46,6 +47,13 @@ struct Assignment {
   std::size_t parameter = 0;  // index in Parameters::list, of a number
   double value = 0.0;         // SI
 };
+
+// The one of a list (axes, designs, assignments) that is of this parameter; nullptr if there is none.
+template <class List>
+const typename List::value_type* of_parameter(const List& list, std::size_t parameter) {
+  const auto found = std::ranges::find(list, parameter, &List::value_type::parameter);
+  return found == list.end() ? nullptr : &*found;
+}
 
 // The unit of a parameter or quantity in the study and in messages.
 struct UsualUnit {

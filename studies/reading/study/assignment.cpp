@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -76,10 +75,7 @@ std::vector<Assignment> parse_assignments(const Study& study, std::string_view o
   for (bool more = true; more;) {
     const std::size_t comma = text.find(',');
     const Assignment assignment = AssignmentReading(study, option, text.substr(0, comma)).read();
-    const bool twice = std::any_of(assignments.begin(), assignments.end(), [&](const Assignment& other) {
-      return other.parameter == assignment.parameter;
-    });
-    if (twice) {
+    if (of_parameter(assignments, assignment.parameter)) {
       throw StudyError(rules::given_twice, "{}: \"{}\" is given twice", option,
                        study.parameters.list[assignment.parameter].name);
     }

@@ -100,22 +100,25 @@ std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const s
   return moving;
 }
 
+bool runs_over_band(const TuneChoice& tune, std::size_t parameter) {
+  return tune.band && tune.band->parameter == parameter;
+}
+
+bool has_axis(const Study& study, std::size_t parameter) {
+  return study.map() ? of_parameter(study.map()->axes, parameter) != nullptr
+                     : study.tune() && runs_over_band(*study.tune(), parameter);
+}
+
 UsualUnit usual_unit(const Study& study, std::size_t parameter) {
   if (study.map()) {
-    for (const ParameterAxis& axis : study.map()->axes) {
-      if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
-    }
+    if (const auto* axis = of_parameter(study.map()->axes, parameter)) return {axis->unit, axis->si_factor};
   }
   if (study.tune()) {
-    if (study.tune()->band && study.tune()->band->parameter == parameter) return study.tune()->band->unit;
-    for (const DesignChoice& design : study.tune()->designs) {
-      if (design.parameter == parameter) return design.unit;
-    }
+    if (runs_over_band(*study.tune(), parameter)) return study.tune()->band->unit;
+    if (const auto* design = of_parameter(study.tune()->designs, parameter)) return design->unit;
   }
   if (study.identify()) {
-    for (const IdentifiedParameter& fitted : study.identify()->parameters) {
-      if (fitted.parameter == parameter) return fitted.unit;
-    }
+    if (const auto* fitted = of_parameter(study.identify()->parameters, parameter)) return fitted->unit;
   }
   const Parameter& definition = study.parameters.list[parameter];
   if (!definition.unit) return {};

@@ -77,6 +77,11 @@ void set_along(const MapChoice& map, std::size_t dimension, std::size_t index, s
 // The dimensions of the map along which these parameters change, ascending; none unless the study has a map.
 std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads);
 
+// Whether a parameter runs over the band of a tuning.
+bool runs_over_band(const TuneChoice& tune, std::size_t parameter);
+// Whether it runs over that band or along an axis of a map.
+bool has_axis(const Study& study, std::size_t parameter);
+
 // The unit of a number parameter in messages and for bare numbers in orbits, --at and --set: that of its
 // axis, band or bounds, otherwise that of its definition, otherwise "" for SI; with its factor to SI.
 UsualUnit usual_unit(const Study& study, std::size_t parameter);
