@@ -1,10 +1,10 @@
 #include "studies/identification/grey_box_task.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "studies/reading/study/study_units.hpp"
 #include "studies/reading/study/study_values.hpp"
+#include "studies/reading/text/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -86,12 +86,6 @@ std::optional<std::string> before(const std::string& role, const std::string& en
   return role.substr(0, role.size() - ending.size());
 }
 
-std::optional<std::size_t> place_of(const std::vector<std::string>& names, const std::string& name) {
-  const auto place = std::find(names.begin(), names.end(), name);
-  if (place == names.end()) return std::nullopt;
-  return static_cast<std::size_t>(place - names.begin());
-}
-
 void add_column(const Study& study, const DataColumn& column, identification::TimeRecord& record) {
   using mechanics::ExcitationKind;
   constexpr std::array<std::pair<const char*, Signal>, 3> signals{{{"_displacement", Signal::displacement},
@@ -100,15 +94,15 @@ void add_column(const Study& study, const DataColumn& column, identification::Ti
   for (const auto& [ending, signal] : signals) {
     const auto node = before(column.role, ending);
     if (!node) continue;
-    if (const auto mass = place_of(study.network.masses, *node)) {
+    if (const auto mass = place_among(study.network.masses, *node)) {
       record.channels.push_back({column.role, *mass, signal, column.values});
-    } else if (const auto support = place_of(study.network.prescribed, *node)) {
+    } else if (const auto support = place_among(study.network.prescribed, *node)) {
       record.excitation.push_back({ExcitationKind::motion, *support, column.values});
     }
     return;
   }
   if (const auto node = before(column.role, "_force")) {
-    if (const auto mass = place_of(study.network.masses, *node))
+    if (const auto mass = place_among(study.network.masses, *node))
       record.excitation.push_back({ExcitationKind::force, *mass, column.values});
   }
 }

@@ -120,14 +120,14 @@ std::vector<MeasuredColumn> chosen(const Study& study, std::vector<MeasuredColum
   for (const MeasuredColumn& column : all) known.push_back(column.name);
   std::vector<MeasuredColumn> columns;
   for (const std::string& name : names) {
-    const auto place = std::find(known.begin(), known.end(), name);
-    if (place == known.end()) {
+    const auto place = place_among(known, name);
+    if (!place) {
       throw StudyError(rules::unknown_name, "--columns: nothing is called \"{}\"{}", name,
                        suggestion(name, known));
     }
     if (std::count(names.begin(), names.end(), name) > 1)
       throw StudyError(rules::given_twice, "--columns: \"{}\" is given twice", name);
-    columns.push_back(all[static_cast<std::size_t>(place - known.begin())]);
+    columns.push_back(all[*place]);
   }
   return columns;
 }

@@ -27,13 +27,10 @@ TomlValue document_of(const Study& study) {
   if (!parameters || !parameters->value.as<TomlTable>()) return document;
   TomlTable in_this_run;
   for (TomlEntry& entry : std::get<TomlTable>(parameters->value.content)) {
-    const auto names = study.parameters.names();
-    const auto found = std::ranges::find(names, entry.key);
-    if (found == names.end()) continue;
-    const auto i = static_cast<std::size_t>(found - names.begin());
-    if (has_axis(study, i)) continue;
-    if (const auto* number = std::get_if<double>(&study.parameters.list[i].definition))
-      entry.value = toml_parameter(study, i, *number);
+    const auto i = study.parameters.find(entry.key);
+    if (!i || has_axis(study, *i)) continue;
+    if (const auto* number = std::get_if<double>(&study.parameters.list[*i].definition))
+      entry.value = toml_parameter(study, *i, *number);
     in_this_run.push_back(std::move(entry));
   }
   parameters->value.content = std::move(in_this_run);

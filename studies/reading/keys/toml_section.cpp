@@ -213,6 +213,24 @@ double read_number(const StudySource& source, const std::string& where, const To
   return *number;
 }
 
+std::vector<std::size_t> read_places(const TomlSection& section, std::string_view key, const TomlArray& names,
+                                     std::string_view what, const std::vector<std::string>& known) {
+  const std::string where = fmt::format("{}: {}", section.where(), key);
+  std::vector<std::size_t> places;
+  for (const TomlValue& item : names) {
+    const std::string name = read_text(section.source(), where, item);
+    const auto refuse = [&](Rule rule, const std::string& text) {
+      throw section.source().error_at(rule, item.position, "{}: {}", where, text);
+    };
+    const auto place = place_among(known, name);
+    if (!place) refuse(rules::unknown_name, none_called(what, name, known));
+    if (std::ranges::find(places, *place) != places.end())
+      refuse(rules::given_twice, fmt::format("\"{}\" appears twice", name));
+    places.push_back(*place);
+  }
+  return places;
+}
+
 std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlValue& parent,
                                           const std::string& path) {
   std::vector<const TomlValue*> tables;

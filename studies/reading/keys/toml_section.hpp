@@ -81,6 +81,10 @@ std::string read_identifier(const StudySource& source, const std::string& where,
 double read_number(const StudySource& source, const std::string& where, const TomlValue& value);
 bool is_number(const TomlValue& value);
 
+// Names of a list, each once, as places among those known. what: these name, for messages: "mass".
+std::vector<std::size_t> read_places(const TomlSection& section, std::string_view key, const TomlArray& names,
+                                     std::string_view what, const std::vector<std::string>& known);
+
 // The tables of `[[path]]`, such as "mass" or "excitation.force", in the parent that holds its last part;
 // none if the key is absent.
 std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlValue& parent,

@@ -35,10 +35,9 @@ void check_units(const TomlSection& section, const RawRecord& raw) {
   std::vector<std::string> roles;
   for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
   for (const TomlEntry& entry : *entries) {
-    if (std::find(roles.begin(), roles.end(), entry.key) != roles.end()) continue;
-    throw section.source().error_at(rules::unknown_name, entry.position,
-                                    "{}: units: no column of numbers is called \"{}\"{}", section.where(),
-                                    entry.key, suggestion(entry.key, roles));
+    if (place_among(roles, entry.key)) continue;
+    throw section.source().error_at(rules::unknown_name, entry.position, "{}: units: {}", section.where(),
+                                    none_called("column of numbers", entry.key, roles));
   }
 }
 

@@ -65,13 +65,12 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
   const char* key = force ? "force_on" : "acceleration_of";
   const auto& names = force ? network.masses : network.prescribed;
   const std::string name = noise.text(key);
-  const auto node = std::find(names.begin(), names.end(), name);
-  if (node == names.end()) {
-    noise.fail(rules::unknown_name, key, "no {} is called \"{}\"{}",
-               force ? "mass" : "node of prescribed motion", name, suggestion(name, names));
-  }
+  const auto node = place_among(names, name);
+  if (!node)
+    noise.fail(rules::unknown_name, key, "{}",
+               none_called(force ? "mass" : "node of prescribed motion", name, names));
   reading.choice.noise.kind = force ? tuning::NoiseKind::force_on : tuning::NoiseKind::acceleration_of;
-  reading.choice.noise.node = static_cast<std::size_t>(node - names.begin());
+  reading.choice.noise.node = *node;
   if (noise.find("intensity")) reading.choice.noise.intensity = noise.number("intensity");
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "studies/reading/data_files/earlier_estimates.hpp"
@@ -47,12 +46,12 @@ ParameterAxis& add_axis_of(SampleReading& reading, const Wanted& wanted) {
 
 // Gives an estimate its axis, in SI. Returns its index among the estimates.
 std::size_t take_estimate(SampleReading& reading, const Wanted& wanted, const EarlierEstimates& earlier) {
-  const auto found = std::ranges::find(earlier.names, wanted.name);
-  if (found == earlier.names.end())
+  const auto place = place_among(earlier.names, wanted.name);
+  if (!place)
     fail_at(reading, wanted, rules::unknown_name,
             fmt::format("{} has no estimate \"{}\"{}", earlier.file, wanted.name,
                         suggestion(wanted.name, earlier.names)));
-  const auto i = static_cast<std::size_t>(found - earlier.names.begin());
+  const std::size_t i = *place;
   const double deviation = std::sqrt(earlier.covariance[i][i]);
   if (!std::isfinite(earlier.values[i]) || !std::isfinite(deviation))
     fail_at(reading, wanted, rules::wrong_file,

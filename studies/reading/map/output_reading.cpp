@@ -102,28 +102,13 @@ bool frequencies_differ(const Study& study, std::size_t dimension) {
   return true;
 }
 
-void read_resonances(const StudyContext& context, const TomlSection& section, Study& study) {
+void read_resonances(const TomlSection& section, Study& study) {
   const TomlValue* value = section.find("resonances");
   if (!value) return;
   const auto* names = value->as<TomlArray>();
   if (!names) section.fail(rules::wrong_type, "resonances", "expected an array of masses such as [\"main\"]");
-  const std::string where = fmt::format("{}: resonances", section.where());
-  const std::vector<std::string> coordinates = mechanics::coordinate_names(study.network);
-  for (const TomlValue& item : *names) {
-    const std::string name = read_text(context.source, where, item);
-    const auto found = std::find(coordinates.begin(), coordinates.end(), name);
-    if (found == coordinates.end()) {
-      throw context.source.error_at(rules::unknown_name, item.position,
-                                    "{}: no mass or signal is called \"{}\"{}", where, name,
-                                    suggestion(name, coordinates));
-    }
-    const auto index = static_cast<std::size_t>(found - coordinates.begin());
-    auto& chosen = study.sweep()->resonances;
-    if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
-      throw context.source.error_at(rules::given_twice, item.position, "{}: \"{}\" appears twice", where,
-                                    name);
-    chosen.push_back(index);
-  }
+  study.sweep()->resonances = read_places(section, "resonances", *names, "mass or signal",
+                                          mechanics::coordinate_names(study.network));
   const auto dimension = study.sweep()->frequency_dimension;
   if (!dimension || study.map()->dimensions[*dimension].axes.size() > 1 ||
       study.map()->dimensions[*dimension].size < 3) {
@@ -218,7 +203,7 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   study.sweep()->general_path = section.choice("path") == "general";
   read_borders(section, study);
   read_histories(context, section, "orbits", study);
-  read_resonances(context, section, study);
+  read_resonances(section, study);
   read_branches(context, section, study);
   if (const std::string one = needs_one_response(study); !one.empty()) refuse_several_responses(study, one);
 }

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numeric>
 
 #include "studies/reading/study/profile.hpp"
 #include "studies/reading/text/name_pattern.hpp"
-#include "studies/reading/text/spelling.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 
 namespace frahm::studies {
@@ -36,26 +34,6 @@ std::vector<std::size_t> matching_masses(const TomlSection& section, const mecha
   return masses;
 }
 
-std::vector<std::size_t> listed_masses(const TomlSection& section, const TomlArray& names,
-                                       const mechanics::Network& network) {
-  std::vector<std::size_t> masses;
-  for (const TomlValue& item : names) {
-    const std::string name = read_text(section.source(), section.where() + ": profile", item);
-    const auto refuse = [&](Rule rule, const std::string& text) {
-      throw section.source().error_at(rule, item.position, "{}: profile: {}", section.where(), text);
-    };
-    const auto found = std::ranges::find(network.masses, name);
-    if (found == network.masses.end())
-      refuse(rules::unknown_name,
-             fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
-    const auto mass = static_cast<std::size_t>(found - network.masses.begin());
-    if (std::ranges::find(masses, mass) != masses.end())
-      refuse(rules::given_twice, fmt::format("\"{}\" appears twice", name));
-    masses.push_back(mass);
-  }
-  return masses;
-}
-
 std::vector<std::size_t> read_masses(const TomlSection& section, const mechanics::Network& network) {
   const TomlValue& value = section.require("profile");
   const auto* names = value.as<TomlArray>();
@@ -64,8 +42,8 @@ std::vector<std::size_t> read_masses(const TomlSection& section, const mechanics
                  "expected an array of masses, the lowest first, \"all\" or a pattern such as \"floor*\", "
                  "found {}",
                  described(value));
-  std::vector<std::size_t> masses =
-      names ? listed_masses(section, *names, network) : matching_masses(section, network);
+  std::vector<std::size_t> masses = names ? read_places(section, "profile", *names, "mass", network.masses)
+                                          : matching_masses(section, network);
   if (masses.size() < 2)
     section.fail(rules::wrong_length, "profile", "a profile needs at least two masses, found {}",
                  masses.size());

@@ -157,12 +157,9 @@ class ExpressionParser {
     }
     if (called) fail_unknown_function(word, where);
     if (word == "pi") return push({Operation::constant, 0, std::numbers::pi}, place);
-    const auto parameter = std::find(names_.begin(), names_.end(), word);
-    if (parameter == names_.end()) {
-      fail(rules::unknown_name, where,
-           fmt::format("no parameter is called \"{}\"{}", word, suggestion(word, names_)));
-    }
-    const auto index = static_cast<std::uint32_t>(parameter - names_.begin());
+    const auto parameter = place_among(names_, word);
+    if (!parameter) fail(rules::unknown_name, where, none_called("parameter", word, names_));
+    const auto index = static_cast<std::uint32_t>(*parameter);
     result_.reads_.push_back(index);
     push({Operation::parameter, index, 0.0}, place);
   }
@@ -219,8 +216,7 @@ class ExpressionParser {
     }
     std::vector<std::string> known;
     for (const Function& function : functions_) known.emplace_back(function.name);
-    fail(rules::unknown_name, where,
-         fmt::format("no function is called \"{}\"{}", word, suggestion(word, known)));
+    fail(rules::unknown_name, where, none_called("function", word, known));
   }
 
   // The word or character at the cursor, in quotes; a character of several bytes whole.

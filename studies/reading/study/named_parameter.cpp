@@ -10,9 +10,7 @@ namespace frahm::studies {
 std::optional<Refusal> why_not_a_number(const Parameters& parameters, std::string_view name,
                                         std::string_view need) {
   const auto index = parameters.find(name);
-  if (!index)
-    return Refusal{rules::unknown_name, fmt::format("no parameter is called \"{}\"{}", name,
-                                                    suggestion(std::string(name), parameters.names()))};
+  if (!index) return Refusal{rules::unknown_name, none_called("parameter", name, parameters.names())};
   if (!parameters.list[*index].is_number())
     return Refusal{rules::computed_parameter,
                    fmt::format("\"{}\" is computed from other parameters; {}", name, need)};

@@ -85,10 +85,7 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   table.file = section.text("table");
   const std::string of = section.identifier("of");
   const auto index = parameters.find(of);
-  if (!index) {
-    section.fail(rules::unknown_name, "of", "no parameter is called \"{}\"{}", of,
-                 suggestion(of, parameters.names()));
-  }
+  if (!index) section.fail(rules::unknown_name, "of", "{}", none_called("parameter", of, parameters.names()));
   table.of = *index;
   try {
     const ReadTable read = read_lookup_table(folder / table.file);

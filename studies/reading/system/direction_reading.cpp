@@ -134,9 +134,7 @@ Node read_node(const StudyContext& context, const mechanics::Network& network, c
                                   problem);
   };
   const auto node = find_node(network, share.key);
-  if (!node)
-    fail(rules::unknown_name,
-         fmt::format("no node is called \"{}\"{}", share.key, suggestion(share.key, node_names(network))));
+  if (!node) fail(rules::unknown_name, none_called("node", share.key, node_names(network)));
   if (std::ranges::find(before, *node) != before.end())
     fail(rules::given_twice, fmt::format("\"{}\" is given twice", share.key));
   return *node;

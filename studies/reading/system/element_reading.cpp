@@ -62,9 +62,8 @@ std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSectio
     names[i] = read_text(section.source(), where, (*ends)[i]);
     const auto node = find_node(reading.result.network, names[i]);
     if (!node) {
-      throw section.source().error_at(rules::unknown_name, (*ends)[i].position,
-                                      "{}: no node is called \"{}\"{}", where, names[i],
-                                      suggestion(names[i], node_names(reading.result.network)));
+      throw section.source().error_at(rules::unknown_name, (*ends)[i].position, "{}: {}", where,
+                                      none_called("node", names[i], node_names(reading.result.network)));
     }
     nodes[i] = *node;
   }

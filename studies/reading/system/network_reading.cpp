@@ -99,13 +99,8 @@ void take_name(NetworkReading& reading, const TomlSection& section, const std::s
 
 std::optional<Node> find_node(const mechanics::Network& network, const std::string& name) {
   if (name == "ground") return Node{NodeKind::ground, 0};
-  const auto index_in = [&](const std::vector<std::string>& names) -> std::optional<std::size_t> {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - names.begin());
-  };
-  if (const auto index = index_in(network.masses)) return Node{NodeKind::mass, *index};
-  if (const auto index = index_in(network.prescribed)) return Node{NodeKind::prescribed, *index};
+  if (const auto mass = place_among(network.masses, name)) return Node{NodeKind::mass, *mass};
+  if (const auto support = place_among(network.prescribed, name)) return Node{NodeKind::prescribed, *support};
   return std::nullopt;
 }
 
@@ -113,9 +108,7 @@ mechanics::Node read_mass(const TomlSection& section, const mechanics::Network& 
                           const std::string& key, std::string_view need) {
   const std::string name = section.text(key);
   const auto node = find_node(network, name);
-  if (!node)
-    section.fail(rules::unknown_name, key, "no mass is called \"{}\"{}", name,
-                 suggestion(name, network.masses));
+  if (!node) section.fail(rules::unknown_name, key, "{}", none_called("mass", name, network.masses));
   if (node->kind != NodeKind::mass)
     section.fail(rules::wrong_node, key, "\"{}\" is {}; {}", name,
                  node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion", need);

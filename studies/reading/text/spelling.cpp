@@ -62,6 +62,16 @@ std::string suggestion(std::string_view found, std::span<const std::string> vali
   return "; known: " + listed(valid, ", ");
 }
 
+std::string none_called(std::string_view what, std::string_view found, std::span<const std::string> valid) {
+  return fmt::format("no {} is called \"{}\"{}", what, found, suggestion(found, valid));
+}
+
+std::optional<std::size_t> place_among(std::span<const std::string> names, std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 bool is_identifier(std::string_view name) {
   return !name.empty() && is_letter(name.front()) && std::all_of(name.begin(), name.end(), [](char c) {
     return is_letter(c) || is_digit(c) || c == '_';
