@@ -85,7 +85,7 @@ void set_bends(const Network& network, const NetworkValues& values, Bends& bends
 
 bool may_have_several_responses(const Network& network) {
   return std::any_of(network.elements.begin(), network.elements.end(), [](const Element& element) {
-    return element.has_static_force || !element.bends.empty() || element.has_cubic ||
+    return element.has_static_force || !element.bends.empty() || element.has_smooth_spring ||
            element.law == FrictionLaw::stribeck;
   });
 }

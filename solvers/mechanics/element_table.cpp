@@ -129,7 +129,8 @@ const Element* frequency_dependent_element(const Network& network) {
 const Element* element_unfit_for_noise(const Network& network) {
   const auto is_unfit = [](const Element& element) {
     const ElementKind& kind = kind_of(element);
-    return kind.law != nullptr || kind.depends_on_frequency || !element.bends.empty() || element.has_cubic;
+    return kind.law != nullptr || kind.depends_on_frequency || !element.bends.empty() ||
+           element.has_smooth_spring;
   };
   const auto found = std::ranges::find_if(network.elements, is_unfit);
   return found == network.elements.end() ? nullptr : &*found;

@@ -76,6 +76,8 @@ class ElementFormula {
   Added<Dual> (*duals_)(Dual, Dual, Dual);
 };
 
+inline constexpr std::size_t numbers_of_an_element = 4;  // that its kind may have
+
 struct ElementKind {  // NOLINT(cppcoreguidelines-pro-type-member-init): rows give what has no default
   ElementType type;
   const char* name;   // in a study file
@@ -95,7 +97,9 @@ struct ElementKind {  // NOLINT(cppcoreguidelines-pro-type-member-init): rows gi
   const laws::Bend *table = nullptr, *stop = nullptr, *pulling_stop = nullptr;
 
   // All that a study file may give, those too that the kind has not.
-  constexpr std::array<const ValueKey*, 4> values() const { return {&value, &second, &slope, &cubic}; }
+  constexpr std::array<const ValueKey*, numbers_of_an_element> values() const {
+    return {&value, &second, &slope, &cubic};
+  }
   constexpr bool can_be_smoothed() const { return slope.exists(); }
   // It feels the acceleration across it and nothing else.
   bool is_inertia_alone() const;

@@ -88,8 +88,8 @@ struct Element {
   Direction along;  // its displacement u; each node once
   FrictionLaw law = FrictionLaw::exact;
   std::vector<BendPlace> bends;
-  bool has_static_force = false;  // of a coulomb element that follows the exact law: it is given one
-  bool has_cubic = false;         // of a spring: it adds cubic u^3
+  bool has_static_force = false;   // of a coulomb element that follows the exact law: it is given one
+  bool has_smooth_spring = false;  // of a spring: it adds a smooth force of u, cubic u^3
   // For an iwan element: how many jenkins elements in parallel it is, from this one on, the first, by which
   // all are reported as one; 0 of those that follow.
   std::size_t parts = 1;

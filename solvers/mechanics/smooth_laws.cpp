@@ -48,7 +48,7 @@ bool rises(FrictionLaw law, const SmoothValue& value) {
 
 bool has_smooth_law(const Element& element) {
   const bool rubs_smoothly = element.type == ElementType::coulomb && element.law != FrictionLaw::exact;
-  return rubs_smoothly || element.has_cubic;
+  return rubs_smoothly || element.has_smooth_spring;
 }
 
 bool has_smooth_law(const Network& network) {
@@ -90,7 +90,7 @@ double friction_at_high_speed(const Element& element, const SmoothValue& value, 
 bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values) {
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const SmoothValue& value = smooth_value(values, e);
-    if (network.elements[e].has_cubic && value.cubic != 0.0) return false;
+    if (network.elements[e].has_smooth_spring && value.cubic != 0.0) return false;
     if (!rises(network.elements[e].law, value)) return false;
   }
   return true;

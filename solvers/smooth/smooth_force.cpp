@@ -18,7 +18,7 @@ ForceAndSlope Cubic::at(double u) const {
 
 SmoothForce::SmoothForce(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit)
     : law_(Cubic{value.cubic}) {
-  if (element.has_cubic) return;
+  if (element.has_smooth_spring) return;
   switch (element.law) {
     case mechanics::FrictionLaw::exact:
       throw std::logic_error("the exact law of '" + element.name + "' is not smooth");

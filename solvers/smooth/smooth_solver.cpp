@@ -28,7 +28,7 @@ using periodic::History;
 
 // Whether the orbit under the exact law is near that under a smooth one.
 bool is_near_exact(const Element& element) {
-  if (element.has_cubic) return false;
+  if (element.has_smooth_spring) return false;
   switch (element.law) {
     case FrictionLaw::exact:
     case FrictionLaw::arctan:

@@ -1,6 +1,7 @@
 #include "studies/program/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -321,9 +322,10 @@ void add_report(CLI::App& program, ReportOptions& options, Action& action) {
 void add_new(CLI::App& program, NewOptions& options, Action& action) {
   CLI::App* command =
       add_command(program, "new", "write a study to start from, with comments", help::new_examples);
-  command->add_option("KIND", options.kind, "sweep, tune, identify, decay or transient")
+  const std::vector<std::string> kinds = starter_kinds();
+  command->add_option("KIND", options.kind, listed(kinds, " or "))
       ->required()
-      ->type_name("sweep|tune|identify|decay|transient");
+      ->type_name(fmt::format("{}", fmt::join(kinds, "|")));
   command->add_option("FILE", options.file, "the study to write, - for stdout (default: KIND.toml)");
   command->callback([&] { action = [&](std::ostream& out) { return new_command(options, out); }; });
 }

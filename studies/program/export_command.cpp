@@ -168,10 +168,8 @@ void write_group(const results::MapReader& map, const std::string& group, std::o
 // Writes the requested group, otherwise the map, or in a file without a map the motion, optimum or branch.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
   if (!asked.empty()) return write_group(map, asked, out);
-  for (const char* group : {"decay", "transient", optimum_group, identification_group, "branches"}) {
-    if (map.layout().axes.empty() && map.has_group(group)) return write_group(map, group, out);
-  }
-  write_map(map, out);
+  const std::string own = own_group(map);
+  own.empty() ? write_map(map, out) : write_group(map, own, out);
 }
 
 void check_group(const results::MapReader& map, const ExportOptions& options) {

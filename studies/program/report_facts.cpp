@@ -112,7 +112,7 @@ std::vector<results::Column> limit_bands(const Study& study) {
 // Whether a response is not in proportion to its excitation.
 bool is_nonlinear(const mechanics::Network& network) {
   return std::ranges::any_of(network.elements, [](const mechanics::Element& each) {
-    return mechanics::has_contact(each) || !each.bends.empty() || each.has_cubic;
+    return mechanics::has_contact(each) || !each.bends.empty() || each.has_smooth_spring;
   });
 }
 

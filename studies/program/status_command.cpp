@@ -9,7 +9,6 @@
 
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
-#include "studies/identification/identification_columns.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
@@ -17,7 +16,6 @@
 #include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance_checksum.hpp"
 #include "studies/reading/quantities/unit_words.hpp"
-#include "studies/tuning/optimum_columns.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -45,19 +43,21 @@ void print_group(const results::MapReader& map, const std::string& group, std::o
 }
 
 void print_groups(const results::MapReader& map, std::ostream& out) {
-  for (const char* group : {"decay", "transient"}) {
-    if (!map.has_group(group)) continue;
-    fmt::print(out, "{:<22} {}\n", "motion", group);
-    print_group(map, group, out);
+  const std::string group = own_group(map);
+  if (group.empty()) return;
+  switch (kind_of(map)) {
+    case ResultKind::map:
+    case ResultKind::branch:
+      return;
+    case ResultKind::motion:
+      fmt::print(out, "{:<22} {}\n", "motion", group);
+      break;
+    case ResultKind::tuning:
+    case ResultKind::identification:
+      for (const auto& [name, text] : map.texts(group)) fmt::print(out, "{:<22} {}\n", name, text);
+      break;
   }
-  if (map.has_group(identification_group)) {
-    for (const auto& [name, text] : map.texts(identification_group))
-      fmt::print(out, "{:<22} {}\n", name, text);
-    print_group(map, identification_group, out);
-  }
-  if (!map.has_group(optimum_group)) return;
-  for (const auto& [name, text] : map.texts(optimum_group)) fmt::print(out, "{:<22} {}\n", name, text);
-  print_group(map, optimum_group, out);
+  print_group(map, group, out);
 }
 
 void print_file(const std::filesystem::path& file, std::ostream& out) {

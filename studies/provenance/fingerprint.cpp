@@ -61,18 +61,6 @@ void add_parameters(const Study& study, CanonicalText& text) {
   }
 }
 
-// For an element with a law of friction the number next to its force, which is a part of its identity.
-const StudyValue& second_number(mechanics::FrictionLaw law, const StudyValues& values, std::size_t element) {
-  switch (law) {
-    case mechanics::FrictionLaw::exact:
-    case mechanics::FrictionLaw::stribeck:
-      break;
-    case mechanics::FrictionLaw::arctan:
-      return values.slope[element];
-  }
-  return values.second[element];
-}
-
 std::string node_text(const mechanics::Node& node) {
   return fmt::format("{}:{}", static_cast<int>(node.kind), node.index);
 }
@@ -105,10 +93,12 @@ void add_network(const Study& study, CanonicalText& text) {
   text.line("prescribed {}", fmt::join(network.prescribed, " "));
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const mechanics::Element& element = network.elements[i];
-    text.line("element {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
-              direction_text(element), value(values.element[i]), static_cast<int>(element.law),
-              value(second_number(element.law, values, i)));
-    if (element.has_cubic) text.line("cubic {}", value(values.cubic[i]));
+    text.line("element {} {} {} {}", element.name, static_cast<int>(element.type), direction_text(element),
+              static_cast<int>(element.law));
+    const auto keys = mechanics::kind_of(element).values();
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (const StudyValue& each = (*values.lists_of_elements()[k])[i]; each.is_given())
+        text.line("{} {}", keys[k]->key, value(each));
     if (element.parts != 1) text.line("parts {}", element.parts);
   }
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
@@ -141,9 +131,7 @@ void add_network(const Study& study, CanonicalText& text) {
 
 // The properties that distinguish decays or transients of the same network.
 void add_motion(const Study& study, CanonicalText& text) {
-  if (!study.motion() && !study.identify()) return;
   const auto names = study.parameters.names();
-  text.line("kind {}", kind_name(study.kind()));
   const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
     if (value) text.line("{} {}", what, value->expression.canonical_text(names));
   };
@@ -193,7 +181,7 @@ void add_tuning(const Study& study, CanonicalText& text) {
   const TuneChoice& tune = *study.tune();
   const auto names = study.parameters.names();
   const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
-  text.line("kind tune objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
+  text.line("objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
   if (tune.peaks) text.line("peaks {} for {}", static_cast<int>(tune.peaks->objective), tune.peaks->duration);
   if (tune.quantile < 1.0) text.line("quantile {}", tune.quantile);
   if (tune.band) text.line("band {} {}", names[tune.band->parameter], band(tune.band->range));
@@ -297,6 +285,7 @@ std::string physics_hash(const Study& study, std::span<const std::string> quanti
     text.line("orbits {} {} {}", wanted.starts, wanted.most_multiple, static_cast<int>(wanted.show));
     if (study.sweep()) add_swept_frequencies(*study.sweep(), study.parameters, text);
   }
+  text.line("kind {}", kind_name(study.kind()));
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
   add_parameters(study, text);
   add_network(study, text);

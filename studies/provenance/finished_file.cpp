@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -44,12 +46,33 @@ void require_result(const std::filesystem::path& path) {
       "frahm merge --partial makes a file of the finished part of a map");
 }
 
+// The group that holds a result of each kind but a map.
+struct OwnGroup {
+  const char* group;
+  ResultKind kind;
+};
+static constexpr OwnGroup own_groups[] = {{"branches", ResultKind::branch},
+                                          {"optimum", ResultKind::tuning},
+                                          {"identification", ResultKind::identification},
+                                          {"decay", ResultKind::motion},
+                                          {"transient", ResultKind::motion}};
+
+static const OwnGroup* find_own_group(const results::MapReader& result) {
+  if (!result.layout().axes.empty()) return nullptr;
+  const auto* const own =
+      std::ranges::find_if(own_groups, [&](const OwnGroup& each) { return result.has_group(each.group); });
+  return own == std::end(own_groups) ? nullptr : own;
+}
+
 ResultKind kind_of(const results::MapReader& result) {
   if (!result.layout().axes.empty()) return ResultKind::map;
-  if (result.has_group("branches")) return ResultKind::branch;
-  if (result.has_group("optimum")) return ResultKind::tuning;
-  if (result.has_group("identification")) return ResultKind::identification;
-  return ResultKind::motion;
+  const OwnGroup* const own = find_own_group(result);
+  return own ? own->kind : ResultKind::motion;
+}
+
+std::string own_group(const results::MapReader& result) {
+  const OwnGroup* const own = find_own_group(result);
+  return own ? own->group : "";
 }
 
 bool is_part(const results::MapReader& map) {

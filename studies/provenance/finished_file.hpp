@@ -16,6 +16,9 @@ engine::Fingerprint fingerprint_of(const results::MapReader& map);
 enum class ResultKind { map, branch, tuning, identification, motion };
 ResultKind kind_of(const results::MapReader& result);
 
+// The group that holds a result that is no map: "decay", "optimum"; "" of a map.
+std::string own_group(const results::MapReader& result);
+
 // The text of /provenance with the number of tiles missing from a file made by merge --partial.
 inline constexpr const char* missing_tiles_text = "missing_tiles";
 // The text of /provenance with the identity of the result from which this one grew.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/text/rules.hpp"
 
 namespace frahm::studies {
 
@@ -14,11 +16,35 @@ enum class Together {
   all_or_none,
   not_without,  // the first needs the second
 };
+
+// What a message says where a group is broken, in place of the general sentence and its rule.
+struct Sentence {
+  const char* text = "";  // {}: the key that is already given, or the one that is missing
+  std::optional<Rule> rule = std::nullopt;
+};
+struct TooMany : Sentence {};
+struct Missing : Sentence {};
+
+// TomlSection checks every group; `frahm schema` states them.
 struct KeyGroup {
-  const char* section = "";
-  const char* keys = "";  // "a|b"
-  Together rule = Together::at_most_one;
+  // more: the forms of the section in which it holds, its own sentences, in any order.
+  template <class... More>
+  constexpr KeyGroup(const char* in, const char* which, Together how, const More&... more)
+      : section(in), keys(which), rule(how) {
+    (take(more), ...);
+  }
+
+  const char* section;
+  const char* keys;  // "a|b"
+  Together rule;
   KeyOwners of = {};
+  TooMany too_many = {};
+  Missing missing = {};
+
+ private:
+  constexpr void take(const KeyOwners& forms) { of = forms; }
+  constexpr void take(const TooMany& sentence) { too_many = sentence; }
+  constexpr void take(const Missing& sentence) { missing = sentence; }
 };
 std::span<const KeyGroup> key_groups();
 

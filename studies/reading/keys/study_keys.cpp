@@ -389,7 +389,7 @@ constexpr StudyKey all_keys[] = {
     {"tune", "noise", KeyForm::table, Use::nowhere, "the random excitation of objective = \"variance\"",
      of("", "band"), needed_of("objective", "variance")},
     {"tune", "quantile", KeyForm::number, Use::physics, "quantile over samples that is minimised",
-     between(0.0, 1.0)},
+     of("", "records"), between(0.0, 1.0)},
     {"tune", "records", KeyForm::texts, Use::physics, "the records of a tuning over records",
      of("", "records"), Or{KeyForm::table, "axis.records"}},
     {"tune", "duration", KeyForm::number, Use::physics, "duration of the motion under records [s]",

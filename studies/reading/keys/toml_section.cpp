@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "studies/reading/keys/key_groups.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/text/spelling.hpp"
 
@@ -40,6 +41,32 @@ Rule wrong_type_of(const TomlValue& value) {
   return is_repeated || is_whole ? rules::beyond_schema(rules::wrong_type) : rules::wrong_type;
 }
 
+// The forms of the section that have the key, in words; "" where none has it.
+std::string form_that_has(std::string_view section, std::string_view name, std::string_view form) {
+  const auto all = study_keys();
+  const auto key = std::ranges::find_if(
+      all, [&](const StudyKey& each) { return each.section == section && each.key == name; });
+  if (key == all.end()) return "";
+  const std::vector<std::string> owners = separated(key->owners.of);
+  if (*key->owners.decider)
+    return fmt::format("; it belongs to {} = {}", key->owners.decider, listed(quoted(owners), " or "));
+  std::vector<std::string> with, without;  // what tells that the section is of a form
+  for (const SectionForm& each : section_forms()) {
+    if (each.section != section) continue;
+    const bool has_it = std::ranges::find(owners, each.form) != owners.end();
+    for (const std::string& mark : separated(each.marks)) {
+      const bool is_list = mark.find('.') != std::string::npos;
+      std::string written = is_list ? written_section(mark) : fmt::format("\"{}\"", mark);
+      if (has_it)
+        with.push_back(std::move(written));
+      else if (each.form == form)
+        without.push_back(std::move(written));
+    }
+  }
+  return with.empty() ? fmt::format("; it does not go with {}", listed(without, " or "))
+                      : fmt::format("; it goes with {}", listed(with, " or "));
+}
+
 }  // namespace
 
 const TomlEntry* find_entry(const TomlValue& table, std::string_view key) {
@@ -65,10 +92,15 @@ TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std:
   const std::vector<std::string> keys = keys_of(section_, form_);
   for (const TomlEntry& entry : *entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
+    const std::string elsewhere = form_that_has(section_, entry.key, form_);
     throw source.error_at(rules::unknown_key, entry.position, "{}: unknown key \"{}\"{}", where_, entry.key,
-                          suggestion(entry.key, keys));
+                          elsewhere.empty() ? suggestion(entry.key, keys) : elsewhere);
   }
   require_keys(form_);
+  for (const KeyGroup& group : key_groups()) {
+    const bool is_of_every_form = *group.of.of == '\0';
+    if (group.section == section_ && (is_of_every_form || is_one_of(form_, group.of.of))) check_group(group);
+  }
 }
 
 const TomlValue* TomlSection::find(std::string_view key) const {
@@ -172,6 +204,45 @@ void TomlSection::keep_to(std::string_view form) const {
          listed(quoted(separated(key.owners.of)), " or "), form);
   }
   require_keys(form);
+  for (const KeyGroup& group : key_groups())
+    if (group.section == section_ && is_one_of(form, group.of.of)) check_group(group);
+}
+
+void TomlSection::check_group(const KeyGroup& group) const {
+  std::vector<std::string> given, absent;
+  for (const std::string& key : separated(group.keys))
+    (is_given(study_key(section_, key), *table_) ? given : absent).push_back(key);
+  // In the words of the group, if it has any.
+  const auto sentence = [](const Sentence& own, const char* general, const std::string& key) {
+    return fmt::format(fmt::runtime(*own.text ? own.text : general), key);
+  };
+  const auto refuse_too_many = [&] {
+    if (given.size() < 2) return;
+    fail(group.too_many.rule.value_or(rules::one_of_two_keys), given[1], "{}",
+         sentence(group.too_many, "\"{}\" is already given; give only one of them", given[0]));
+  };
+  const auto refuse_none = [&] {
+    if (!given.empty()) return;
+    fail_here(group.missing.rule.value_or(rules::one_of_two_keys), "{}",
+              sentence(group.missing, "needs {}", listed(quoted(absent), " or ")));
+  };
+  switch (group.rule) {
+    case Together::one:
+      refuse_none();
+      return refuse_too_many();
+    case Together::at_most_one:
+      return refuse_too_many();
+    case Together::at_least_one:
+      return refuse_none();
+    case Together::all_or_none:
+      if (given.empty() || absent.empty()) return;
+      fail_here(group.missing.rule.value_or(rules::missing_key_of_table), "{}",
+                sentence(group.missing, "the key \"{}\" is missing", absent[0]));
+    case Together::not_without:
+      if (absent != std::vector{separated(group.keys).back()}) return;
+      fail(group.missing.rule.value_or(rules::key_without_use), given[0], "{}",
+           sentence(group.missing, "needs the key \"{}\"", absent[0]));
+  }
 }
 
 std::string read_text(const StudySource& source, const std::string& where, const TomlValue& value) {

@@ -10,6 +10,7 @@
 
 namespace frahm::studies {
 
+struct KeyGroup;
 struct Limits;
 struct StudyKey;
 
@@ -19,7 +20,8 @@ class TomlSection {
  public:
   // where: the table's name in messages: `[study]`, `element "guide"`. section: its name in study_keys();
   // form: the form of the section, if that is known before its keys are read. The first key that these have
-  // not is an error, and so is one that they need and is not there.
+  // not is an error, and so is one that they need and is not there, and a group of keys (key_groups.hpp) that
+  // is broken.
   TomlSection(const StudySource& source, const TomlValue& table, std::string where, std::string_view section,
               std::string_view form = "");
 
@@ -47,8 +49,8 @@ class TomlSection {
 
   const Limits& limits(std::string_view key) const;  // of the table of keys
 
-  // Refuses keys that another form of the section has and this one has not, and requires its own, once a key
-  // has told the form.
+  // Refuses keys that another form of the section has and this one has not, requires its own and checks its
+  // groups, once a key has told the form.
   void keep_to(std::string_view form) const;
 
   // At the table, and at the value of a key.
@@ -67,6 +69,7 @@ class TomlSection {
  private:
   void check_limits(std::string_view key, double number, std::string_view kind) const;
   void require_keys(std::string_view form) const;
+  void check_group(const KeyGroup& group) const;
   std::size_t place_of(std::string_view key, std::string_view word) const;
 
   const StudySource* source_;

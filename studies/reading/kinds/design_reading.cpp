@@ -134,9 +134,6 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
   check_bounds(section, design.lower, design.upper);
   read_schedule(reading, section, design);
   if (section.find("rule")) {
-    if (!design.is_scheduled())
-      section.fail(rules::beyond_schema(rules::key_without_use), "rule",
-                   "is compared with a schedule, but this [[design]] has none");
     const Parameter& parameter = reading.study.parameters.list[design.parameter];
     design.rule = read_formula(reading, section, "rule", wanted_of_parameter(parameter));
   }
@@ -150,8 +147,6 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
   limit.quantity = read_real_quantity(reading, section, "quantity");
   limit.name = section.text("quantity");
   limit.unit = read_quantity_unit(reading, section, limit.quantity);
-  if (!section.find("lower") && !section.find("upper"))
-    section.fail_here(rules::one_of_two_keys, "needs \"lower\", \"upper\" or both");
   limit.lower = read_bound(section, "lower", limit.unit.si_factor, limit.lower);
   limit.upper = read_bound(section, "upper", limit.unit.si_factor, limit.upper);
   check_bounds(section, limit.lower, limit.upper);

@@ -33,10 +33,6 @@ void read_known_values(NetworkReading& reading, const TomlSection& section, Iden
   choice.stiffness = read_optional(reading, section, "stiffness", Quantity::stiffness);
   choice.reference_frequency =
       read_optional(reading, section, "reference_frequency", Quantity::angular_frequency);
-  if (choice.method == Method::free_decay && choice.mass && choice.stiffness)
-    section.fail(
-        rules::one_of_two_keys, "stiffness",
-        "the mass is also given; a free decay determines one of the two from the other by its frequency");
 }
 
 // The file's name without its ending, as a name: "free decay-1.csv" -> free_decay_1.

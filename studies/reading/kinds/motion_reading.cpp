@@ -25,8 +25,6 @@ InitialValues read_initial_values(NetworkReading& reading, const TomlValue& tabl
                             label(table, "initial values of", "node", "initial", number), "initial");
   const auto& network = reading.result.network;
   const mechanics::Node node = read_mass(section, network, "node", "only a mass has initial values");
-  if (!section.find("displacement") && !section.find("velocity"))
-    section.fail_here(rules::one_of_two_keys, "a displacement, a velocity or both are needed");
   const bool turns = mechanics::rotates(network, node.index);
   const Quantity displacement = turns ? Quantity::angle : Quantity::length;
   const Quantity velocity = turns ? Quantity::angular_frequency : Quantity::speed;
@@ -103,11 +101,6 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
   motion.samples = static_cast<int>(section.integer_or("samples", samples_of_a_transient));
   motion.sweep_to = read_optional(reading, section, "sweep_to", Quantity::angular_frequency);
   motion.sweep_rate = read_optional(reading, section, "sweep_rate", Quantity::angular_acceleration);
-  if (motion.sweep_to.has_value() != motion.sweep_rate.has_value()) {
-    section.fail_here(rules::missing_key,
-                      "the key \"{}\" is missing: a run-up or run-down needs both sweep_to and sweep_rate",
-                      motion.sweep_to ? "sweep_rate" : "sweep_to");
-  }
   if (motion.sweep_to) check_run_up(reading, section);
   if (!motion.duration && !motion.sweep_to && !mechanics::has_records(reading.result.network))
     section.fail_here(rules::beyond_schema(rules::missing_key),

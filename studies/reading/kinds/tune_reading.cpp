@@ -58,9 +58,6 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
                  "belongs to objective = \"variance\"");
   const TomlSection noise(reading.context.source, *value, "[tune]: noise", "tune.noise");
   const bool force = noise.find("force_on") != nullptr;
-  if (force == (noise.find("acceleration_of") != nullptr))
-    noise.fail_here(rules::one_of_two_keys,
-                    "needs either \"force_on\", a mass, or \"acceleration_of\", a node of prescribed motion");
   const auto& network = reading.study.network;
   const char* key = force ? "force_on" : "acceleration_of";
   const auto& names = force ? network.masses : network.prescribed;
@@ -129,7 +126,7 @@ void require_band(const TuneReading& reading, const TomlSection& section) {
                       "}}; one frequency is "
                       "from = to");
   }
-  if (!choice.limits.empty() || choice.trade_off)
+  if (!choice.limits.empty())
     section.fail_here(rules::beyond_schema(rules::missing_key),
                       "the key \"band\" is missing: limits hold over a band of frequencies");
 }
@@ -277,7 +274,6 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   refuse_samples(reading);
-  refuse_quantile(section);
   read_objective(section, choice);
   if (choice.objective == Objective::mean_square) refuse_several_responses(study, "a mean square");
   if (choice.objective == Objective::variance) refuse_several_responses(study, "a variance");

@@ -67,11 +67,4 @@ void refuse_samples(const TuneReading& reading) {
         "its ranges, and samples belong to a tuning over records");
 }
 
-void refuse_quantile(const TomlSection& section) {
-  if (section.find("quantile"))
-    section.fail(rules::beyond_schema(rules::other_kind), "quantile",
-                 "belongs to the worst peaks of samples in a tuning over records; over a band there are "
-                 "none: leave it out, or drive the study by [[excitation.record]]");
-}
-
 }  // namespace frahm::studies

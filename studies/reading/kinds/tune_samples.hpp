@@ -13,7 +13,5 @@ namespace frahm::studies {
 void read_samples(TuneReading& reading, const std::filesystem::path& folder, DataFiles data);
 // Refuses samples.
 void refuse_samples(const TuneReading& reading);
-// Refuses a quantile, which a tuning without samples does not have.
-void refuse_quantile(const TomlSection& section);
 
 }  // namespace frahm::studies

@@ -113,7 +113,6 @@ std::vector<double> spaced(double from, double to, std::size_t points, bool loga
 std::vector<double> read_range(const TomlSection& section) {
   const double from = section.number("from");
   const double to = section.number("to");
-  section.require("points");
   const std::int64_t points = section.integer_or("points", 0);
   if (from == to)
     section.fail(rules::wrong_order, "to", "\"from\" and \"to\" are the same, {}; write values = [...]", to);
@@ -128,11 +127,6 @@ std::vector<double> read_range(const TomlSection& section) {
 }
 
 std::vector<double> read_listed(const TomlSection& section) {
-  for (const char* key : {"from", "to", "points", "spacing"}) {
-    if (section.find(key))
-      section.fail(rules::key_without_use, key,
-                   "cannot be combined with \"values\": give either values, or from, to and points");
-  }
   const TomlValue& list = section.require("values");
   const auto* items = list.as<TomlArray>();
   if (!items)
@@ -164,10 +158,6 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   axis.position = section.position();
   axis.parameter = read_axis_parameter(section, study);
   read_axis_unit(context, section, study.parameters.list[axis.parameter], axis);
-  if (!section.find("values") && !section.find("from")) {
-    section.fail_here(rules::missing_key,
-                      "its values are missing: give values = [...], or from, to and points");
-  }
   axis.values = section.find("values") ? read_listed(section) : read_range(section);
   if (section.find("zip")) {
     axis.zip = section.identifier("zip");

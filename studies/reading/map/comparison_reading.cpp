@@ -1,12 +1,10 @@
 #include "studies/reading/map/comparison_reading.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/map/orbits_reading.hpp"
 #include "studies/reading/map/output_reading.hpp"
@@ -22,10 +20,11 @@ using mechanics::FrictionLaw;
 
 // There is no exact law to compare these with.
 void refuse_other_smooth_laws(const TomlSection& section, const Study& study) {
-  for (const mechanics::Element& each : study.network.elements) {
-    if (!each.has_cubic && each.law != FrictionLaw::stribeck) continue;
-    section.fail(rules::wrong_law, "law", "element \"{}\" has a {}, which no other law has", each.name,
-                 each.has_cubic ? "cubic" : "table");
+  const auto& elements = study.network.elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (!mechanics::has_smooth_law(elements[e]) || elements[e].law == FrictionLaw::arctan) continue;
+    section.fail(rules::wrong_law, "law", "element \"{}\" has a {}, which no other law has", elements[e].name,
+                 smooth_key(study, e).key);
   }
 }
 
@@ -106,16 +105,9 @@ TomlSection section_of(const StudyContext& context, const TomlEntry& entry) {
 
 // "law", "taylor_order" or "show".
 std::string subject_of(const TomlSection& section) {
-  std::vector<std::string> given;
-  for (const char* key : {"law", "taylor_order", "show"}) {
-    if (section.find(key)) given.emplace_back(key);
-  }
-  if (given.size() != 1)
-    section.fail_here(rules::one_of_two_keys,
-                      "needs either \"law\", another friction law, \"taylor_order\", another crank profile, "
-                      "or \"show\", another of several responses; it has {}",
-                      given.empty() ? "none of them" : fmt::format("{}", fmt::join(given, " and ")));
-  return given.front();
+  for (const char* key : {"law", "taylor_order"})
+    if (section.find(key)) return key;
+  return "show";
 }
 
 void read_compared_show(const TomlSection& section, const Study& study, Comparison& comparison) {

@@ -13,11 +13,7 @@ constexpr double least_share = 1e-9;  // that cuts leave: less has no digits lef
 
 // The one of two keys that is given.
 std::string one_of(const TomlSection& section, const char* first, const char* second) {
-  const bool has_first = section.find(first), has_second = section.find(second);
-  if (has_first == has_second)
-    section.fail_here(rules::one_of_two_keys, "needs \"{}\" or \"{}\"{}", first, second,
-                      has_first ? ", not both" : "");
-  return has_first ? first : second;
+  return section.find(first) ? first : second;
 }
 
 void read_ends(const TomlSection& section, Distribution& distribution) {

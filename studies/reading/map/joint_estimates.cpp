@@ -106,12 +106,7 @@ JointEstimates stated(SampleReading& reading, const std::vector<Wanted>& wanted)
 JointEstimates read_joint_estimates(SampleReading& reading, const std::filesystem::path& folder,
                                     DataFiles data) {
   const TomlSection& section = reading.section;
-  if (!section.find("fixed_from")) {
-    if (section.find("parameters"))
-      section.fail(rules::key_without_use, "parameters",
-                   "has no effect without fixed_from: it chooses among the estimates of a result");
-    return {};
-  }
+  if (!section.find("fixed_from")) return {};
   const std::string file = section.text("fixed_from");
   const std::vector<Wanted> wanted = read_parameters_wanted(section);
   if (data == DataFiles::leave) return stated(reading, wanted);

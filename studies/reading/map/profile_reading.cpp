@@ -90,9 +90,6 @@ std::optional<Profile> read_profile(const TomlSection* report, const mechanics::
     profile.height = read_heights(*report, profile.masses.size());
     return profile;
   }
-  if (report && report->find("height"))
-    report->fail(rules::key_without_use, "height",
-                 "heights belong to the masses of `profile`, which is missing");
   if (network.masses.size() <= few_masses) return std::nullopt;
   return Profile{.masses = all_masses(network)};
 }

@@ -59,10 +59,6 @@ void draw(SampleReading& reading, const TomlValue& table, const std::filesystem:
   const std::vector<samples::Distribution> distributions = read_distributions(table, reading);
   const JointEstimates joint = read_joint_estimates(reading, folder, data);
   const auto own = static_cast<Eigen::Index>(distributions.size());
-  if (reading.choice.axes.empty())
-    section.fail_here(
-        rules::beyond_schema(rules::missing_key),
-        "the uncertain parameters are missing: give tables [[axis.of]] with distributions, or fixed_from");
   const auto which = section.choice_as<samples::Sequence>("sequence");
   const Eigen::MatrixXd points = samples::unit_points(which, count, reading.choice.axes.size(), seed);
   for (Eigen::Index d = 0; d < own; ++d) {

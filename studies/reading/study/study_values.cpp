@@ -72,12 +72,25 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
 
 }  // namespace
 
+std::vector<const std::vector<StudyValue>*> StudyValues::lists_of_system() const {
+  std::vector<const std::vector<StudyValue>*> lists{&mass, &damping, &points};
+  for (const auto* list : lists_of_elements()) lists.push_back(list);
+  return lists;
+}
+
+std::vector<const std::vector<StudyValue>*> StudyValues::lists() const {
+  std::vector<const std::vector<StudyValue>*> lists = lists_of_system();
+  lists.insert(lists.end(), {&amplitude, &phase, &rod});
+  return lists;
+}
+
 bool StudyValues::has_smooth_laws() const {
-  const auto is_given = [](const StudyValue& value) { return !value.where.empty(); };
   const auto is_curve = [](const StudyCharacteristic& of) {
     return of.kind == StudyCharacteristic::Kind::curve;
   };
-  return std::ranges::any_of(slope, is_given) || std::ranges::any_of(cubic, is_given) ||
+  const auto is_given = [](const auto* list) { return std::ranges::any_of(*list, &StudyValue::is_given); };
+  const auto lists = lists_of_elements();
+  return std::ranges::any_of(std::span(lists).subspan(first_smooth), is_given) ||
          std::ranges::any_of(characteristic, is_curve);
 }
 

@@ -25,6 +25,8 @@ struct StudyValue {
   std::string where;  // for messages: `element "guide": force`
   Position position;
   UsualUnit unit{};  // of a number that the study gives one
+
+  bool is_given() const { return !where.empty(); }
 };
 
 // A combination of coordinates as the study gives it: `along = { roof = 1, wheel = "-r" }`. Its factors are
@@ -53,16 +55,18 @@ struct StudyValues {
   std::vector<StudyCharacteristic> characteristic{};  // of each element; of a table, in place of its value
   std::vector<StudyValue> points{};                   // of all characteristics
 
-  // All but the frequency.
-  std::array<const std::vector<StudyValue>*, 10> lists() const {
-    return {&mass, &element, &second, &slope, &cubic, &amplitude, &phase, &rod, &damping, &points};
-  }
-  // Those of masses, elements and the damping of the structure.
-  std::array<const std::vector<StudyValue>*, 7> lists_of_system() const {
-    return {&mass, &element, &second, &slope, &cubic, &damping, &points};
-  }
   // Those of each element, in the order of mechanics::ElementKind::values().
-  std::array<std::vector<StudyValue>*, 4> lists_of_elements() { return {&element, &second, &slope, &cubic}; }
+  std::array<std::vector<StudyValue>*, mechanics::numbers_of_an_element> lists_of_elements() {
+    return {&element, &second, &slope, &cubic};
+  }
+  std::array<const std::vector<StudyValue>*, mechanics::numbers_of_an_element> lists_of_elements() const {
+    return {&element, &second, &slope, &cubic};
+  }
+  static constexpr std::size_t first_smooth = 2;  // of those lists: it and what follows are of smooth laws
+  // Those of masses, elements and the damping of the structure.
+  std::vector<const std::vector<StudyValue>*> lists_of_system() const;
+  // All but the frequency.
+  std::vector<const std::vector<StudyValue>*> lists() const;
   // Those of an element's characteristic.
   std::span<const StudyValue> points_of(std::size_t e) const {
     return std::span(points).subspan(characteristic[e].first, characteristic[e].count);

@@ -48,11 +48,6 @@ void read_damping(NetworkReading& reading, const TomlValue& root) {
   if (!entry) return;
   const TomlSection section(reading.context.source, entry->value, "[damping]", "damping");
   const bool is_modal = section.find("modal") != nullptr;
-  if (is_modal == (section.find("rayleigh") != nullptr))
-    section.fail_here(
-        rules::one_of_two_keys,
-        "expected either modal = 0.02, a ratio for all modes or a list of ratios, or rayleigh = [a, b]{}",
-        is_modal ? ", not both" : "");
   reading.result.network.damping =
       is_modal ? mechanics::DampingModel::modal : mechanics::DampingModel::rayleigh;
   is_modal ? read_modal(reading, section) : read_rayleigh(reading, section);

@@ -116,9 +116,6 @@ double window_end(const StudyContext& context, const TomlSection& section, const
 transient::Interpolation interpolation_of(const TomlSection& section, const RecordedPlace& place,
                                           const mechanics::Network& network) {
   if (!section.find("interpolation")) return {};
-  if (place.of != RecordOf::displacement)
-    section.fail(rules::key_without_use, "interpolation",
-                 "belongs to displacement_of; all other records are straight lines between samples");
   const auto interpolation = section.choice_as<transient::Interpolation>("interpolation");
   if (interpolation == transient::Interpolation::spline) return interpolation;
   const std::string why = transient::why_no_jump(network, find_node(network, place.node)->index);

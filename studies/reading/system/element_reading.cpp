@@ -103,12 +103,6 @@ struct ReadDirection {
 };
 
 ReadDirection read_ends(const NetworkReading& reading, const TomlSection& section) {
-  if (section.find("between") && section.find("along"))
-    section.fail(rules::one_of_two_keys, "along",
-                 "the element is already between two nodes; give only one of the two");
-  if (!section.find("between") && !section.find("along"))
-    section.fail_here(rules::one_of_two_keys,
-                      "the key \"between\" is missing (or \"along\", for a combination of coordinates)");
   if (section.find("between")) {
     const std::array<Node, 2> ends = read_between(reading, section);
     return {mechanics::between(ends[0], ends[1]), {}, is_rotational(reading, section, ends)};
@@ -127,7 +121,8 @@ StudyValue value_of_table(const StudyCharacteristic& table) {
 
 // numbers: in the order of ElementKind::values().
 void add_element(NetworkReading& reading, const TomlSection& section, mechanics::Element element,
-                 const StudyDirection& along, std::array<StudyValue, 4> numbers) {
+                 const StudyDirection& along,
+                 std::array<StudyValue, mechanics::numbers_of_an_element> numbers) {
   StudyValues& values = reading.result.values;
   reading.result.network.elements.push_back(std::move(element));
   check_number_of_contacts(reading, section, reading.result.network.elements.back());
@@ -153,13 +148,13 @@ void add_iwan(NetworkReading& reading, const TomlSection& section, mechanics::El
 }
 
 // The numbers that the element has under its law; its table stands in place of its first.
-std::array<StudyValue, 4> read_numbers(NetworkReading& reading, const TomlSection& section,
-                                       const mechanics::Element& element,
-                                       const StudyCharacteristic& characteristic) {
+std::array<StudyValue, mechanics::numbers_of_an_element> read_numbers(
+    NetworkReading& reading, const TomlSection& section, const mechanics::Element& element,
+    const StudyCharacteristic& characteristic) {
   using Kind = StudyCharacteristic::Kind;
-  const std::array<const ValueKey*, 4> keys = mechanics::kind_of(element).values();
+  const auto keys = mechanics::kind_of(element).values();
   const bool has_table = characteristic.kind == Kind::table || characteristic.kind == Kind::curve;
-  std::array<StudyValue, 4> numbers;
+  std::array<StudyValue, mechanics::numbers_of_an_element> numbers;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const ValueKey& value = *keys[i];
     if (!value.exists() || value.law.value_or(element.law) != element.law) continue;
@@ -178,8 +173,9 @@ void add_of_kind(NetworkReading& reading, const TomlSection& section, const Elem
   element.law = read_law(section, kind);
   if (kind.law != nullptr) check_one_law(reading, section, kind, element.law);
   StudyCharacteristic characteristic = read_characteristic(reading, section, element.rotational, element);
-  element.has_cubic = kind.cubic.exists() && section.find(kind.cubic.key) != nullptr;
-  std::array<StudyValue, 4> numbers = read_numbers(reading, section, element, characteristic);
+  element.has_smooth_spring = kind.cubic.exists() && section.find(kind.cubic.key) != nullptr;
+  std::array<StudyValue, mechanics::numbers_of_an_element> numbers =
+      read_numbers(reading, section, element, characteristic);
   element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;
   const std::vector<std::string> names = reading.parameters.names();
   const auto text = [&](const StudyValue& value) { return value.expression.canonical_text(names); };

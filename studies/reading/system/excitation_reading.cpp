@@ -43,15 +43,9 @@ std::string read_profile(const TomlSection& section) {
 
 // The amplitude of a motion is that of its displacement, velocity or acceleration.
 std::string key_of_amplitude(const TomlSection& section) {
-  std::string given;
-  for (const char* key : {"amplitude", "velocity", "acceleration"}) {
-    if (!section.find(key)) continue;
-    if (!given.empty())
-      section.fail(rules::one_of_two_keys, key, "the motion is already given by its {}",
-                   given == "amplitude" ? "displacement, the key \"amplitude\"" : given);
-    given = key;
-  }
-  return given.empty() ? "amplitude" : given;
+  for (const char* key : {"velocity", "acceleration"})
+    if (section.find(key)) return key;
+  return "amplitude";
 }
 
 // A motion of order 0 that has a velocity moves on for ever: V cos(phase) t.
@@ -113,8 +107,6 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
   const std::string named = find_entry(table, "node") ? "node" : "on";
   const TomlSection section(reading.context.source, table,
                             label(table, "force on", named, force_path, number), force_path);
-  if (section.find("on") && section.find("node"))
-    section.fail(rules::given_twice, "node", "the mass is named twice, by \"on\" and \"node\"");
   const mechanics::Node mass =
       read_mass(section, reading.result.network, named, "a force must act on a mass");
   read_profile(section);

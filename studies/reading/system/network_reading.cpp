@@ -34,10 +34,6 @@ void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t numb
   reading.masses.push_back(section.position());
   check_number_of_states(reading, section);
   const bool rotates = section.find("inertia") != nullptr;
-  if (rotates && section.find("mass"))
-    section.fail(
-        rules::one_of_two_keys, "inertia",
-        "it already has a mass; what both moves in a line and turns needs two [[mass]], one for each");
   reading.result.network.rotation.push_back(rotates);
   reading.result.values.mass.push_back(rotates ? read_value(reading, section, "inertia", Quantity::inertia)
                                                : read_value(reading, section, "mass", Quantity::mass));

@@ -55,19 +55,9 @@ std::vector<TomlSection> record_sections(const StudySource& source, const TomlVa
 }
 
 RecordedPlace place_of(const TomlSection& section) {
-  RecordedPlace place;
-  for (const PlaceKey& each : place_keys) {
-    if (!section.find(each.key)) continue;
-    if (!place.key.empty())
-      section.fail(rules::one_of_two_keys, each.key,
-                   "it is already given as \"{}\"; a record drives only one", place.key);
-    place = {each.key, section.text(each.key), each.of};
-  }
-  if (place.key.empty())
-    section.fail_here(rules::missing_key,
-                      "what it drives is missing: give acceleration_of, velocity_of or displacement_of a "
-                      "support, or force_on a mass");
-  return place;
+  const auto* const given =
+      std::ranges::find_if(place_keys, [&](const PlaceKey& each) { return section.find(each.key); });
+  return {given->key, section.text(given->key), given->of};
 }
 
 Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& network) {

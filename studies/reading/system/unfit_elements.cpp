@@ -5,35 +5,26 @@
 #include <algorithm>
 
 #include "solvers/mechanics/smooth_laws.hpp"
+#include "studies/reading/keys/study_keys.hpp"
 #include "studies/reading/study/characteristic.hpp"
 #include "studies/reading/study/study_values.hpp"
 
 // Elements that some kinds of study do not follow, or not together with others.
 namespace frahm::studies {
-namespace {
 
-// The key by which an element's law is smooth.
-struct SmoothKey {
-  std::string where;
-  Position position;
-  const char* law;
-};
-
-SmoothKey smooth_key(const Study& study, std::size_t e) {
-  const StudyValues& values = study.values;
-  if (study.network.elements[e].has_cubic) return {values.cubic[e].where, values.cubic[e].position, "cubic"};
-  switch (study.network.elements[e].law) {
-    case mechanics::FrictionLaw::exact:
-      break;  // it is not smooth
-    case mechanics::FrictionLaw::arctan:
-      return {values.slope[e].where, values.slope[e].position, "arctan"};
-    case mechanics::FrictionLaw::stribeck:
-      return {values.characteristic[e].where, values.characteristic[e].position, "stribeck"};
+SmoothKey smooth_key(const Study& study, std::size_t element) {
+  const mechanics::Element& of = study.network.elements[element];
+  const char* const law = study_key("element", "law").words[static_cast<std::size_t>(of.law)].word;
+  const auto keys = mechanics::kind_of(of).values();
+  for (std::size_t k = StudyValues::first_smooth; k < keys.size(); ++k) {
+    const StudyValue& value = (*study.values.lists_of_elements()[k])[element];
+    if (value.is_given())
+      return {value.where, value.position, keys[k]->key,
+              of.law == mechanics::FrictionLaw::exact ? keys[k]->key : law};
   }
-  return {{}, {}, "exact"};
+  const StudyCharacteristic& curve = study.values.characteristic[element];
+  return {curve.where, curve.position, "table", law};
 }
-
-}  // namespace
 
 void refuse_bends(const Study& study, const std::string& why) {
   for (const StudyCharacteristic& of : study.values.characteristic) {
@@ -75,13 +66,16 @@ void refuse_several_responses(const Study& study, const std::string& what_needs_
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     const mechanics::Element& element = study.network.elements[e];
     const StudyCharacteristic& of = study.values.characteristic[e];
-    const StudyValue& value = element.has_cubic ? study.values.cubic[e] : study.values.second[e];
-    const bool has_value = element.has_cubic || element.has_static_force;
     const bool depends_on_numbers = of.kind == StudyCharacteristic::Kind::none || of.of_velocity;
-    if (!has_value && depends_on_numbers) continue;
-    throw study.source.error_at(rules::several_responses, has_value ? value.position : of.position,
-                                "{}: with it several responses may exist, but {} needs a single one",
-                                has_value ? value.where : of.where, what_needs_one);
+    if (!element.has_smooth_spring && !element.has_static_force && depends_on_numbers) continue;
+    const StudyValue& at_rest = study.values.second[e];
+    const SmoothKey spring = smooth_key(study, e);
+    const auto [where, position] = element.has_smooth_spring  ? std::pair(spring.where, spring.position)
+                                   : element.has_static_force ? std::pair(at_rest.where, at_rest.position)
+                                                              : std::pair(of.where, of.position);
+    throw study.source.error_at(rules::several_responses, position,
+                                "{}: with it several responses may exist, but {} needs a single one", where,
+                                what_needs_one);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -7,6 +8,14 @@
 
 // Elements that some kinds of study do not follow, or not next to others.
 namespace frahm::studies {
+
+// What makes an element's law smooth, where it is: its key, and the law's name, "arctan", or the key again.
+struct SmoothKey {
+  std::string where;
+  Position position;
+  const char *key, *law;
+};
+SmoothKey smooth_key(const Study& study, std::size_t element);
 
 // Refuses elements that bend.
 void refuse_bends(const Study& study, const std::string& why);

@@ -196,9 +196,7 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
        "be a mass"},
       {"mass_negative", "12:8: mass \"main\": mass: is -102.66 kg; must be >= 0"},
       {"compare_law_and_profile",
-       "40:1: [compare]: needs either \"law\", another friction law, \"taylor_order\", another crank "
-       "profile, "
-       "or \"show\", another of several responses; it has law and taylor_order"},
+       "43:16: [compare]: taylor_order: \"law\" is already compared; compare one thing at a time"},
       {"data_comma_mixed",
        "11:8: [[identify.record]] \"low\": data/decay_comma_mixed.csv:3: separated by commas, but line 1 by "
        "semicolons; all rows must have the same separator, and decimals are written with a point"},
