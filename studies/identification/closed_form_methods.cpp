@@ -1,7 +1,7 @@
 #include "studies/identification/closed_form_methods.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 
 #include "solvers/identification/added_mass.hpp"
 #include "solvers/identification/energy_balance.hpp"
@@ -150,16 +150,15 @@ Identification added_mass_of(const Study& study, const RecordChoice& first) {
 }
 
 // Of each method, in the order of IdentifyMethod. The last, a grey box, has no formula.
-constexpr Identification (*formulas[])(const Study&, const RecordChoice&) = {
-    half_power_of,       magnification_of,  log_decrement_of,   free_decay_of,
-    forced_resonance_of, energy_balance_of, hysteresis_loop_of, added_mass_of};
-static_assert(std::size(formulas) == static_cast<std::size_t>(IdentifyMethod::grey_box));
+constexpr std::array formulas{half_power_of,       magnification_of,  log_decrement_of,   free_decay_of,
+                              forced_resonance_of, energy_balance_of, hysteresis_loop_of, added_mass_of};
+static_assert(formulas.size() == static_cast<std::size_t>(IdentifyMethod::grey_box));
 
 }  // namespace
 
 Identification identify_in_closed_form(const Study& study) {
   const auto& records = study.identify()->records;
-  const auto formula = formulas[static_cast<std::size_t>(study.identify()->method)];
+  const auto formula = formulas.at(static_cast<std::size_t>(study.identify()->method));
   Identification result = formula(study, records.front());
   if (records.size() > 1) return result;  // that have their names
   for (identification::FittedRecord& fitted : result.records)

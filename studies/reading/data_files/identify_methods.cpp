@@ -66,7 +66,7 @@ RecordForm traces_of(const mechanics::Network& network) {
 }
 
 // More estimates, on a condition.
-std::string where(bool holds, const char* names) {
+std::string only_if(bool holds, const char* names) {
   return holds ? names : "";
 }
 
@@ -83,9 +83,9 @@ MethodRow method_row(const Study& study) {
       return {.forms = {response_curve(), table({{"natural_frequency", Q::angular_frequency, positive},
                                                  {"lower_frequency", Q::angular_frequency, positive},
                                                  {"upper_frequency", Q::angular_frequency, positive}})},
-              .estimates = where(is_curve,
-                                 "damping_ratio|damping_ratio_first_order|peak_frequency|natural_frequency|"
-                                 "lower_frequency|upper_frequency")};
+              .estimates = only_if(is_curve,
+                                   "damping_ratio|damping_ratio_first_order|peak_frequency|natural_frequency|"
+                                   "lower_frequency|upper_frequency")};
     case Method::resonance_magnification:
       return {.forms = {with_key("static_displacement",
                                  "for a response curve of the method \"resonance_magnification\" it is the "
@@ -94,7 +94,7 @@ MethodRow method_row(const Study& study) {
                         table({{"static_displacement", Q::length, positive},
                                {"resonant_displacement", Q::length, positive}})},
               .estimates = "damping_ratio|damping_ratio_first_order" +
-                           where(is_curve, "|peak_frequency|peak_amplitude")};
+                           only_if(is_curve, "|peak_frequency|peak_amplitude")};
     case Method::log_decrement:
       return {
           .forms = decay_forms(),
@@ -106,9 +106,9 @@ MethodRow method_row(const Study& study) {
               .estimates =
                   "damping_ratio|friction_displacement|natural_frequency|damped_frequency|"
                   "damping_ratio_first|friction_displacement_first" +
-                  where(choice.sensor_offset, "|offset") +
-                  where(mass || stiffness, "|damping|friction_force") + where(mass, "|stiffness") +
-                  where(stiffness, "|mass")};
+                  only_if(choice.sensor_offset, "|offset") +
+                  only_if(mass || stiffness, "|damping|friction_force") + only_if(mass, "|stiffness") +
+                  only_if(stiffness, "|mass")};
     case Method::forced_resonance:
       return {
           .forms = {table({{"response", Q::length, positive},
@@ -118,8 +118,8 @@ MethodRow method_row(const Study& study) {
           .estimates =
               "slope|intercept|damping_ratio_line|friction_displacement_line|damping_ratio|"
               "friction_displacement" +
-              where(mass && stiffness, "|damping|damping_line") +
-              where(stiffness, "|friction_force|friction_force_line")};
+              only_if(mass && stiffness, "|damping|damping_line") +
+              only_if(stiffness, "|friction_force|friction_force_line")};
     case Method::energy_balance:
       return {.forms = {table({{"amplitude", Q::length, positive},
                                {"energy", Q::energy},

@@ -26,8 +26,8 @@ constexpr KeyGroup all_groups[] = {
      missing(
          "expected either modal = 0.02, a ratio for all modes or a list of ratios, or rayleigh = [a, b]")},
     {"excitation", "force|motion|record", Together::at_least_one,
-     missing("nothing excites the system: it needs an [[excitation.force]], [[excitation.motion]] or "
-             "[[excitation.record]]",
+     missing("nothing excites the system: it needs an [[excitation.force]] or [[excitation.motion]]; a "
+             "transient or a tuning may have an [[excitation.record]] instead",
              rules::missing_section)},
     {"excitation.force", "on|node", Together::one,
      too_many("the mass is named twice, by \"on\" and \"node\"", rules::given_twice),

@@ -41,8 +41,8 @@ Rule wrong_type_of(const TomlValue& value) {
   return is_repeated || is_whole ? rules::beyond_schema(rules::wrong_type) : rules::wrong_type;
 }
 
-// The forms of the section that have the key, in words; "" where none has it.
-std::string form_that_has(std::string_view section, std::string_view name, std::string_view form) {
+// Why a key of a section is not one of this form of it, in words; "" where no form has it.
+std::string why_of_another_form(std::string_view section, std::string_view name, std::string_view form) {
   const auto all = study_keys();
   const auto key = std::ranges::find_if(
       all, [&](const StudyKey& each) { return each.section == section && each.key == name; });
@@ -50,21 +50,21 @@ std::string form_that_has(std::string_view section, std::string_view name, std::
   const std::vector<std::string> owners = separated(key->owners.of);
   if (*key->owners.decider)
     return fmt::format("; it belongs to {} = {}", key->owners.decider, listed(quoted(owners), " or "));
-  std::vector<std::string> with, without;  // what tells that the section is of a form
+  // What tells that the section is of a form that has the key, and of this one.
+  std::vector<std::string> with, without;
+  bool needs_none = false;
   for (const SectionForm& each : section_forms()) {
     if (each.section != section) continue;
-    const bool has_it = std::ranges::find(owners, each.form) != owners.end();
+    const bool has_it = is_one_of(each.form, key->owners.of);
+    if (!has_it && each.form != form) continue;
+    needs_none = needs_none || (has_it && *each.marks == '\0');
     for (const std::string& mark : separated(each.marks)) {
-      const bool is_list = mark.find('.') != std::string::npos;
-      std::string written = is_list ? written_section(mark) : fmt::format("\"{}\"", mark);
-      if (has_it)
-        with.push_back(std::move(written));
-      else if (each.form == form)
-        without.push_back(std::move(written));
+      const bool is_path = mark.find('.') != std::string::npos;
+      (has_it ? with : without).push_back(is_path ? written_section(mark) : fmt::format("\"{}\"", mark));
     }
   }
-  return with.empty() ? fmt::format("; it does not go with {}", listed(without, " or "))
-                      : fmt::format("; it goes with {}", listed(with, " or "));
+  return needs_none ? fmt::format("; it does not go with {}", listed(without, " or "))
+                    : fmt::format("; it goes with {}", listed(with, " or "));
 }
 
 }  // namespace
@@ -92,15 +92,12 @@ TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std:
   const std::vector<std::string> keys = keys_of(section_, form_);
   for (const TomlEntry& entry : *entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
-    const std::string elsewhere = form_that_has(section_, entry.key, form_);
+    const std::string elsewhere = why_of_another_form(section_, entry.key, form_);
     throw source.error_at(rules::unknown_key, entry.position, "{}: unknown key \"{}\"{}", where_, entry.key,
                           elsewhere.empty() ? suggestion(entry.key, keys) : elsewhere);
   }
   require_keys(form_);
-  for (const KeyGroup& group : key_groups()) {
-    const bool is_of_every_form = *group.of.of == '\0';
-    if (group.section == section_ && (is_of_every_form || is_one_of(form_, group.of.of))) check_group(group);
-  }
+  check_groups(form_);
 }
 
 const TomlValue* TomlSection::find(std::string_view key) const {
@@ -204,8 +201,14 @@ void TomlSection::keep_to(std::string_view form) const {
          listed(quoted(separated(key.owners.of)), " or "), form);
   }
   require_keys(form);
-  for (const KeyGroup& group : key_groups())
-    if (group.section == section_ && is_one_of(form, group.of.of)) check_group(group);
+  check_groups(form);
+}
+
+void TomlSection::check_groups(std::string_view form) const {
+  for (const KeyGroup& group : key_groups()) {
+    const bool is_of_every_form = *group.of.of == '\0';
+    if (group.section == section_ && (is_of_every_form || is_one_of(form, group.of.of))) check_group(group);
+  }
 }
 
 void TomlSection::check_group(const KeyGroup& group) const {

@@ -69,6 +69,7 @@ class TomlSection {
  private:
   void check_limits(std::string_view key, double number, std::string_view kind) const;
   void require_keys(std::string_view form) const;
+  void check_groups(std::string_view form) const;
   void check_group(const KeyGroup& group) const;
   std::size_t place_of(std::string_view key, std::string_view word) const;
 

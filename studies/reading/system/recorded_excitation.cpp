@@ -54,6 +54,7 @@ std::vector<TomlSection> record_sections(const StudySource& source, const TomlVa
   return sections;
 }
 
+// One of the keys is there: their group says so (keys/key_groups.cpp).
 RecordedPlace place_of(const TomlSection& section) {
   const auto* const given =
       std::ranges::find_if(place_keys, [&](const PlaceKey& each) { return section.find(each.key); });
