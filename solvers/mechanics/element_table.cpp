@@ -136,6 +136,12 @@ const Element* element_unfit_for_noise(const Network& network) {
   return found == network.elements.end() ? nullptr : &*found;
 }
 
+double number_of(const NetworkValues& values, std::size_t i, std::size_t e) {
+  if (i == 0) return values.element[e];
+  if (i == 1) return second_value(values, e);
+  return e < values.smooth.size() ? values.smooth[e].*smooth_numbers.at(i - first_smooth_number) : 0.0;
+}
+
 double second_value(const NetworkValues& values, std::size_t element) {
   return element < values.second.size() ? values.second[element] : 0.0;
 }

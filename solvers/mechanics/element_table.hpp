@@ -39,6 +39,9 @@ struct ValueKey {
   std::optional<FrictionLaw> law{};  // the only law of friction that has it; none: every law of the kind
 
   constexpr bool exists() const { return key[0] != '\0'; }
+  constexpr bool exists_under(FrictionLaw of_element) const {
+    return exists() && law.value_or(of_element) == of_element;
+  }
 };
 
 // What an element adds between its two nodes, u its relative displacement:
@@ -76,7 +79,9 @@ class ElementFormula {
   Added<Dual> (*duals_)(Dual, Dual, Dual);
 };
 
-inline constexpr std::size_t numbers_of_an_element = 4;  // that its kind may have
+// What an element may have: its value, its second value, and those of smooth laws.
+inline constexpr std::size_t first_smooth_number = 2;
+inline constexpr std::size_t numbers_of_an_element = first_smooth_number + smooth_numbers.size();
 
 struct ElementKind {  // NOLINT(cppcoreguidelines-pro-type-member-init): rows give what has no default
   ElementType type;
@@ -98,7 +103,7 @@ struct ElementKind {  // NOLINT(cppcoreguidelines-pro-type-member-init): rows gi
 
   // All that a study file may give, those too that the kind has not.
   constexpr std::array<const ValueKey*, numbers_of_an_element> values() const {
-    return {&value, &second, &slope, &cubic};
+    return {&value, &second, &slope, &cubic};  // the smooth ones as in smooth_numbers
   }
   constexpr bool can_be_smoothed() const { return slope.exists(); }
   // It feels the acceleration across it and nothing else.
@@ -129,6 +134,8 @@ const Element* frequency_dependent_element(const Network& network);
 // The first element that is not linear with constant values, or null.
 const Element* element_unfit_for_noise(const Network& network);
 
+// Number i of element e, in the order of ElementKind::values(); 0 if it has none.
+double number_of(const NetworkValues& values, std::size_t i, std::size_t e);
 // The second value of the element; 0 if it has none.
 double second_value(const NetworkValues& values, std::size_t element);
 

@@ -149,10 +149,10 @@ void Assembly::check_values(const NetworkValues& values) const {
   }
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Element& element = network_.elements[e];
-    check_value(kind_of(element).value, element, values.element[e]);
-    if (const ValueKey& second = kind_of(element).second; second.exists())
-      check_value(second, element, second_value(values, e));
-    check_smooth_law(element, smooth_value(values, e));
+    const auto keys = kind_of(element).values();
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (keys[i]->exists_under(element.law)) check_value(*keys[i], element, number_of(values, i, e));
+    if (element.law == FrictionLaw::stribeck) check_curve(element, smooth_value(values, e).curve);
     if (const double at_rest = static_force(element, values, e); at_rest < values.element[e] && at_rest > 0.0)
       refuse("static_force of '" + element.name + "'", at_rest, "must not be below its force");
   }

@@ -206,6 +206,8 @@ struct SmoothValue {
 
   friend bool operator==(const SmoothValue&, const SmoothValue&) = default;
 };
+// Those of its numbers that a study gives one by one.
+inline constexpr std::array smooth_numbers{&SmoothValue::slope, &SmoothValue::cubic};
 
 // The numbers of a network at one point of a map, in the order of the lists in `Network`.
 struct NetworkValues {

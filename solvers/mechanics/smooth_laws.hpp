@@ -12,10 +12,9 @@ bool has_smooth_law(const Network& network);
 // The numbers of the element's smooth law; zero where it has none.
 const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element);
 
-// Throws MechanicsError, naming element, value and rule, where a number of the element's smooth law breaks
-// one: a slope is positive, a cubic finite; a curve starts at (0, 0), its speeds rise, and its forces are not
-// negative.
-void check_smooth_law(const Element& element, const SmoothValue& value);
+// Throws MechanicsError, naming element, value and rule, where the curve of a stribeck element breaks one: it
+// starts at (0, 0), its speeds rise, and its forces are not negative.
+void check_curve(const Element& element, const std::vector<CurvePoint>& curve);
 
 // The friction at high speed of an element whose value is F [N]: F, or the end of its curve.
 double friction_at_high_speed(const Element& element, const SmoothValue& value, double F);

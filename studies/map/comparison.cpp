@@ -72,7 +72,9 @@ StudyValues compared_values(const Study& study) {
   StudyValues values = study.values;
   if (comparison.show || comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
-    if (mechanics::kind_of(study.network.elements[e]).can_be_smoothed()) values.slope[e] = comparison.slope;
+    const auto keys = mechanics::kind_of(study.network.elements[e]).values();
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (keys[i]->exists() && keys[i]->law == comparison.law) values.elements[i][e] = comparison.slope;
   }
   return values;
 }

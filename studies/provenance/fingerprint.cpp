@@ -97,7 +97,7 @@ void add_network(const Study& study, CanonicalText& text) {
               static_cast<int>(element.law));
     const auto keys = mechanics::kind_of(element).values();
     for (std::size_t k = 0; k < keys.size(); ++k)
-      if (const StudyValue& each = (*values.lists_of_elements()[k])[i]; each.is_given())
+      if (const StudyValue& each = values.elements[k][i]; each.is_given())
         text.line("{} {}", keys[k]->key, value(each));
     if (element.parts != 1) text.line("parts {}", element.parts);
   }

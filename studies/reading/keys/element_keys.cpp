@@ -40,7 +40,7 @@ std::vector<ElementForm> forms_of_type(std::string_view type) {
   const ElementKind& kind = kind_called(type);
   const auto add_values = [&](ElementForm& form, mechanics::FrictionLaw law) {
     for (const mechanics::ValueKey* value : kind.values()) {
-      if (!value->exists() || value->law.value_or(law) != law) continue;
+      if (!value->exists_under(law)) continue;
       (value->is_optional ? form.optional : form.needed).emplace_back(value->key);
     }
   };

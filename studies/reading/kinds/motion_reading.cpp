@@ -116,7 +116,7 @@ static void refuse_names_of_energies(const StudyContext& context, const Study& s
     const std::string& name = elements[e].name;
     if (name != "initial" && name != "final") continue;
     throw context.source.error_at(
-        rules::name_taken, study.values.element[e].position,
+        rules::name_taken, study.values.value(e).position,
         "element \"{}\": the record of a motion already has a number {}_energy; rename the element", name,
         name);
   }

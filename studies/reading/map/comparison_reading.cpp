@@ -114,9 +114,7 @@ void read_compared_show(const TomlSection& section, const Study& study, Comparis
   if (section.find("slope"))
     section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to another response");
   if (!mechanics::may_have_several_responses(study.network))
-    section.fail(rules::beyond_schema(rules::key_without_use), "show",
-                 "has no effect: only one response exists here; several are searched for only if an element "
-                 "is a gap, or has a table, a cubic or a static_force");
+    section.fail(rules::beyond_schema(rules::key_without_use), "show", "{}", only_one_response());
   comparison.show = read_show(section);
 }
 

@@ -34,8 +34,8 @@ std::vector<std::size_t> reads_of_element(const StudyValues& values, std::size_t
   const auto add = [&](const StudyValue& value) {
     reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
   };
-  add(values.element[e]);
-  add(values.second[e]);
+  add(values.value(e));
+  add(values.second(e));
   for (const StudyValue& value : values.points_of(e)) add(value);
   return reads;
 }

@@ -26,10 +26,7 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
   const TomlSection section(context.source, entry->value, "[orbits]", "orbits");
   const bool has_one = study.tune() ? !tuning::may_take_several_orbits(study.network)
                                     : !mechanics::may_have_several_responses(study.network);
-  if (has_one)
-    section.fail_here(rules::beyond_schema(rules::key_without_use),
-                      "has no effect: only one response exists here; several are searched for only if an "
-                      "element is a gap, or has a table, a cubic or a static_force");
+  if (has_one) section.fail_here(rules::beyond_schema(rules::key_without_use), "{}", only_one_response());
   wanted.starts = static_cast<int>(section.integer_or("starts", wanted.starts));
   wanted.most_multiple = static_cast<int>(section.integer_or("most_multiple", wanted.most_multiple));
   if (study.tune()) {

@@ -38,9 +38,11 @@ template <class Number, class Part>
 void fill_smooth(const StudyValues& values, std::span<const Number> parameters, Part part,
                  mechanics::NetworkValues& out) {
   const auto at = [&](const StudyValue& value) { return part(value.expression.evaluate(parameters)); };
-  out.smooth.resize(values.slope.size());
+  out.smooth.assign(values.characteristic.size(), {});
   for (std::size_t e = 0; e < out.smooth.size(); ++e) {
-    out.smooth[e] = {.slope = at(values.slope[e]), .cubic = at(values.cubic[e])};
+    for (std::size_t i = 0; i < mechanics::smooth_numbers.size(); ++i)
+      out.smooth[e].*mechanics::smooth_numbers[i] =
+          at(values.elements[mechanics::first_smooth_number + i][e]);
     if (values.characteristic[e].kind != StudyCharacteristic::Kind::curve) continue;
     const std::span<const StudyValue> points = values.points_of(e);
     for (std::size_t i = 0; i + 1 < points.size(); i += 2)
@@ -54,15 +56,17 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
           mechanics::NetworkValues& out) {
   const auto at = [&](const StudyValue& value) { return part(value.expression.evaluate(parameters)); };
   out.mass.resize(values.mass.size());
-  out.element.resize(values.element.size());
-  out.second.resize(values.second.size());
-  for (std::size_t i = 0; i < out.second.size(); ++i) out.second[i] = at(values.second[i]);
+  out.element.resize(values.elements[0].size());
+  out.second.resize(values.elements[1].size());
   out.damping.resize(values.damping.size());
   for (std::size_t i = 0; i < out.damping.size(); ++i) out.damping[i] = at(values.damping[i]);
   out.excitation.resize(values.amplitude.size());
   out.omega = at(values.omega);
   for (std::size_t i = 0; i < out.mass.size(); ++i) out.mass[i] = at(values.mass[i]);
-  for (std::size_t i = 0; i < out.element.size(); ++i) out.element[i] = at(values.element[i]);
+  for (std::size_t e = 0; e < out.element.size(); ++e) {
+    out.element[e] = at(values.value(e));
+    out.second[e] = at(values.second(e));
+  }
   for (std::size_t i = 0; i < out.excitation.size(); ++i) {
     out.excitation[i] = {at(values.amplitude[i]), at(values.phase[i]), at(values.rod[i])};
   }
@@ -74,7 +78,7 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
 
 std::vector<const std::vector<StudyValue>*> StudyValues::lists_of_system() const {
   std::vector<const std::vector<StudyValue>*> lists{&mass, &damping, &points};
-  for (const auto* list : lists_of_elements()) lists.push_back(list);
+  for (const std::vector<StudyValue>& list : elements) lists.push_back(&list);
   return lists;
 }
 
@@ -88,9 +92,8 @@ bool StudyValues::has_smooth_laws() const {
   const auto is_curve = [](const StudyCharacteristic& of) {
     return of.kind == StudyCharacteristic::Kind::curve;
   };
-  const auto is_given = [](const auto* list) { return std::ranges::any_of(*list, &StudyValue::is_given); };
-  const auto lists = lists_of_elements();
-  return std::ranges::any_of(std::span(lists).subspan(first_smooth), is_given) ||
+  const auto is_given = [](const auto& list) { return std::ranges::any_of(list, &StudyValue::is_given); };
+  return std::ranges::any_of(std::span(elements).subspan(mechanics::first_smooth_number), is_given) ||
          std::ranges::any_of(characteristic, is_curve);
 }
 

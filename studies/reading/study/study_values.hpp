@@ -44,10 +44,10 @@ struct StudyDirection {
 // All numbers of a network, in the order of mechanics::NetworkValues, and the directions of its signals.
 struct StudyValues {
   StudyValue omega;
-  std::vector<StudyValue> mass, element, amplitude, phase;
-  std::vector<StudyValue> second;     // of each element, the constant 0 where it has none
-  std::vector<StudyValue> slope;      // of each element, of the arctan law; 0 where it does not follow it
-  std::vector<StudyValue> cubic;      // of each element, 0 where it has none
+  std::vector<StudyValue> mass, amplitude, phase;
+  // [i][e]: number i of element e, in the order of mechanics::ElementKind::values(); the constant 0 where it
+  // has none.
+  std::array<std::vector<StudyValue>, mechanics::numbers_of_an_element> elements;
   std::vector<StudyValue> rod;        // of each excitation, the constant 0 where it is no crank
   std::vector<StudyDirection> along;  // of each element, not given where it is between two nodes
   std::vector<StudyDirection> signals{};
@@ -55,14 +55,8 @@ struct StudyValues {
   std::vector<StudyCharacteristic> characteristic{};  // of each element; of a table, in place of its value
   std::vector<StudyValue> points{};                   // of all characteristics
 
-  // Those of each element, in the order of mechanics::ElementKind::values().
-  std::array<std::vector<StudyValue>*, mechanics::numbers_of_an_element> lists_of_elements() {
-    return {&element, &second, &slope, &cubic};
-  }
-  std::array<const std::vector<StudyValue>*, mechanics::numbers_of_an_element> lists_of_elements() const {
-    return {&element, &second, &slope, &cubic};
-  }
-  static constexpr std::size_t first_smooth = 2;  // of those lists: it and what follows are of smooth laws
+  const StudyValue& value(std::size_t e) const { return elements[0][e]; }
+  const StudyValue& second(std::size_t e) const { return elements[1][e]; }
   // Those of masses, elements and the damping of the structure.
   std::vector<const std::vector<StudyValue>*> lists_of_system() const;
   // All but the frequency.

@@ -32,10 +32,10 @@ void check_belts(const NetworkReading& reading) {
     for (const mechanics::Share& share : element.along) {
       if (!is_on_belt(network, share.node)) continue;
       throw source.error_at(
-          rules::wrong_node, values.element[e].position,
+          rules::wrong_node, values.value(e).position,
           "{}: \"{}\" moves for ever at a constant velocity, so the force of a {} would grow with its "
           "displacement; only coulomb, damper, inerter, maxwell and jenkins elements may touch it",
-          values.element[e].where, name(share.node), mechanics::kind_of(element).name);
+          values.value(e).where, name(share.node), mechanics::kind_of(element).name);
     }
   }
   for (std::size_t i = 0; i < values.signals.size(); ++i) {

@@ -36,7 +36,7 @@ class Union {
 bool holds(const mechanics::Element& element, const StudyValues& values, std::size_t index) {
   if (values.characteristic[index].kind == StudyCharacteristic::Kind::table)
     return mechanics::kind_of(element).holds;
-  const StudyValue& stiffness = values.element[index];
+  const StudyValue& stiffness = values.value(index);
   const bool absent =
       stiffness.expression.is_constant() && stiffness.expression.evaluate(std::span<const double>{}) == 0.0;
   return mechanics::kind_of(element).holds && !absent;

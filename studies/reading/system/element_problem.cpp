@@ -21,7 +21,7 @@ std::string with_unit(const Study& study, const StudyValue& value, double number
 }
 
 Problem problem_of_static_force(const Study& study, std::size_t e, std::span<const double> parameters) {
-  const StudyValue &sliding = study.values.element[e], &at_rest = study.values.second[e];
+  const StudyValue &sliding = study.values.value(e), &at_rest = study.values.second(e);
   const double F = sliding.expression.evaluate(parameters), F_s = at_rest.expression.evaluate(parameters);
   if (!(F > 0.0))
     return ElementProblem{rules::beyond_schema(rules::out_of_range), &sliding,
@@ -86,7 +86,7 @@ Problem problem_of_table(const Study& study, std::size_t e, std::span<const doub
   if (Problem problem = problem_of_places(study, values, table, of.sides)) return problem;
   double largest = 0.0;
   for (std::size_t i = 0; i < table.points(); ++i) largest = std::max(largest, std::abs(table.force(i)));
-  const StudyValue& value = study.values.element[e];
+  const StudyValue& value = study.values.value(e);
   if (const double N = table.force_at_origin(); std::abs(N) > rounding * largest)
     return ElementProblem{rules::beyond_schema(rules::out_of_range), &value,
                           fmt::format("gives the force {} at 0", with_unit(study, values[1], N)),

@@ -128,8 +128,7 @@ void add_element(NetworkReading& reading, const TomlSection& section, mechanics:
   check_number_of_contacts(reading, section, reading.result.network.elements.back());
   if (mechanics::kind_of(reading.result.network.elements.back()).has_internal_force)
     check_number_of_states(reading, section);
-  const auto lists = values.lists_of_elements();
-  for (std::size_t i = 0; i < numbers.size(); ++i) lists[i]->push_back(std::move(numbers[i]));
+  for (std::size_t i = 0; i < numbers.size(); ++i) values.elements[i].push_back(std::move(numbers[i]));
   values.along.push_back(along);
   values.characteristic.emplace_back();
 }
@@ -157,7 +156,7 @@ std::array<StudyValue, mechanics::numbers_of_an_element> read_numbers(
   std::array<StudyValue, mechanics::numbers_of_an_element> numbers;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const ValueKey& value = *keys[i];
-    if (!value.exists() || value.law.value_or(element.law) != element.law) continue;
+    if (!value.exists_under(element.law)) continue;
     if (value.is_optional && !section.find(value.key)) continue;
     numbers[i] = has_table && i == 0
                      ? value_of_table(characteristic)
@@ -167,13 +166,21 @@ std::array<StudyValue, mechanics::numbers_of_an_element> read_numbers(
   return numbers;
 }
 
+// Whether it is given a smooth force next to its own: a smooth number that is of no law of friction.
+bool has_smooth_spring(const TomlSection& section, const ElementKind& kind) {
+  const auto keys = kind.values();
+  return std::any_of(keys.begin() + mechanics::first_smooth_number, keys.end(), [&](const ValueKey* key) {
+    return key->exists() && !key->law && section.find(key->key) != nullptr;
+  });
+}
+
 void add_of_kind(NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
                  mechanics::Element element, const StudyDirection& along) {
   check_keys_of_type(section, kind.name);
   element.law = read_law(section, kind);
   if (kind.law != nullptr) check_one_law(reading, section, kind, element.law);
   StudyCharacteristic characteristic = read_characteristic(reading, section, element.rotational, element);
-  element.has_smooth_spring = kind.cubic.exists() && section.find(kind.cubic.key) != nullptr;
+  element.has_smooth_spring = has_smooth_spring(section, kind);
   std::array<StudyValue, mechanics::numbers_of_an_element> numbers =
       read_numbers(reading, section, element, characteristic);
   element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;

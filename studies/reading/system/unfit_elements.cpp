@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "solvers/mechanics/smooth_laws.hpp"
 #include "studies/reading/keys/study_keys.hpp"
@@ -16,8 +17,8 @@ SmoothKey smooth_key(const Study& study, std::size_t element) {
   const mechanics::Element& of = study.network.elements[element];
   const char* const law = study_key("element", "law").words[static_cast<std::size_t>(of.law)].word;
   const auto keys = mechanics::kind_of(of).values();
-  for (std::size_t k = StudyValues::first_smooth; k < keys.size(); ++k) {
-    const StudyValue& value = (*study.values.lists_of_elements()[k])[element];
+  for (std::size_t k = mechanics::first_smooth_number; k < keys.size(); ++k) {
+    const StudyValue& value = study.values.elements[k][element];
     if (value.is_given())
       return {value.where, value.position, keys[k]->key,
               of.law == mechanics::FrictionLaw::exact ? keys[k]->key : law};
@@ -68,7 +69,7 @@ void refuse_several_responses(const Study& study, const std::string& what_needs_
     const StudyCharacteristic& of = study.values.characteristic[e];
     const bool depends_on_numbers = of.kind == StudyCharacteristic::Kind::none || of.of_velocity;
     if (!element.has_smooth_spring && !element.has_static_force && depends_on_numbers) continue;
-    const StudyValue& at_rest = study.values.second[e];
+    const StudyValue& at_rest = study.values.second(e);
     const SmoothKey spring = smooth_key(study, e);
     const auto [where, position] = element.has_smooth_spring  ? std::pair(spring.where, spring.position)
                                    : element.has_static_force ? std::pair(at_rest.where, at_rest.position)
@@ -77,6 +78,19 @@ void refuse_several_responses(const Study& study, const std::string& what_needs_
                                 "{}: with it several responses may exist, but {} needs a single one", where,
                                 what_needs_one);
   }
+}
+
+std::string only_one_response() {
+  std::string springs;
+  for (const mechanics::ElementKind& kind : mechanics::element_kinds()) {
+    const auto keys = kind.values();
+    for (const mechanics::ValueKey* key : std::span(keys).subspan(mechanics::first_smooth_number))
+      if (key->exists() && !key->law) springs += fmt::format(", a {}", key->key);
+  }
+  return fmt::format(
+      "has no effect: only one response exists here; several are searched for only if an element is a gap, "
+      "or has a table{} or a static_force",
+      springs);
 }
 
 std::string needs_one_response(const Study& study) {

@@ -26,6 +26,8 @@ void refuse_mixed_laws(const Study& study);
 // Refuses elements with which several responses may exist; where they depend on numbers, element_problem()
 // does.
 void refuse_several_responses(const Study& study, const std::string& what_needs_one);
+// The message where a choice between responses is made, but one response alone exists.
+std::string only_one_response();
 // What of the study needs that there is one response, "" if nothing does.
 std::string needs_one_response(const Study& study);
 

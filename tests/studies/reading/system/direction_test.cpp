@@ -84,7 +84,7 @@ TEST_CASE("values of a rotational element are in N m/rad or N m, kg m2, N m s an
   const auto value_of = [](const std::string& value, const std::string& type) {
     const Study study =
         parse_study(study_with("between = [\"ground\", \"wheel\"]", value, type), "study.toml");
-    return study.values.element[2].expression.evaluate(std::span<const double>());
+    return study.values.value(2).expression.evaluate(std::span<const double>());
   };
   CHECK(value_of("stiffness = { value = 7, unit = \"N m\" }", "spring") == 7.0);
   CHECK(value_of("stiffness = { value = 7, unit = \"N m/rad\" }", "spring") == 7.0);
