@@ -182,8 +182,9 @@ void add_tuning(const Study& study, CanonicalText& text) {
   const auto names = study.parameters.names();
   const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
   text.line("objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
-  if (tune.peaks) text.line("peaks {} for {}", static_cast<int>(tune.peaks->objective), tune.peaks->duration);
-  if (tune.quantile < 1.0) text.line("quantile {}", tune.quantile);
+  if (const auto& peaks = tune.peaks)
+    text.line("peaks {} share {} for {}", static_cast<int>(peaks->goal.objective), peaks->goal.share,
+              peaks->duration);
   if (tune.band) text.line("band {} {}", names[tune.band->parameter], band(tune.band->range));
   constexpr int by_default = -1;
   text.line("solver {} start {} global {} tolerance {}", tuning::name(tune.solver),

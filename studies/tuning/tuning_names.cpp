@@ -34,7 +34,7 @@ std::string start_text(const TuneChoice& tune, const tuning::Optimum& optimum) {
 
 const char* objective_name(const TuneChoice& tune) {
   if (tune.peaks)
-    return tune.peaks->objective == tuning::RecordObjective::worst_peak ? "worst_peak" : "mean_peak";
+    return tune.peaks->goal.objective == tuning::RecordObjective::worst_peak ? "worst_peak" : "mean_peak";
   switch (tune.objective) {
     case tuning::Objective::minimax:
       return "minimax";
@@ -177,7 +177,8 @@ std::vector<results::Text> optimum_texts(const Study& study, const TuningResult&
   if (tune.objective == tuning::Objective::variance) add_noise(study, texts);
   if (tune.peaks) texts.emplace_back("records", fmt::format("{}", fmt::join(tune.peaks->records, ",")));
   if (!tune.drawn.empty()) texts.emplace_back("samples", tune.drawn);
-  if (tune.quantile < 1.0) texts.emplace_back("quantile", fmt::format("{}", tune.quantile));
+  if (tune.peaks && tune.peaks->goal.share < 1.0)
+    texts.emplace_back("quantile", fmt::format("{}", tune.peaks->goal.share));
   if (tune.dominate_constant) texts.emplace_back("dominate", "constant");
   if (const std::string limits_of_it = not_proved(study); !limits_of_it.empty())
     texts.emplace_back("not_proved", limits_of_it);

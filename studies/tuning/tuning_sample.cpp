@@ -46,7 +46,7 @@ double curves_of(const TuneChoice& tune) {
 void expect_motions(const TuneChoice& tune, TuningSample& sample) {
   const double motions = static_cast<double>(tune.peaks->records.size()) * curves_of(tune);
   sample.least_responses = 4.0 * motions;
-  sample.most_responses = (tune.quantile < 1.0 ? 60.0 : 20.0) * motions;
+  sample.most_responses = (tune.peaks->goal.share < 1.0 ? 60.0 : 20.0) * motions;
 }
 
 // The range of responses that a start takes, from those of its problems that the sample ended.

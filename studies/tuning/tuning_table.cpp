@@ -258,7 +258,7 @@ std::string band_words(const Study& study) {
 
 void print_task(const Study& study, std::ostream& out) {
   const TuneChoice& tune = *study.tune();
-  const bool is_mean = tune.peaks && tune.peaks->objective == tuning::RecordObjective::mean_peak;
+  const bool is_mean = tune.peaks && tune.peaks->goal.objective == tuning::RecordObjective::mean_peak;
   const char* how = is_mean                                            ? "least mean"
                     : tune.objective == tuning::Objective::minimax     ? "least worst"
                     : tune.objective == tuning::Objective::mean_square ? "least mean square of"
@@ -274,7 +274,9 @@ void print_task(const Study& study, std::ostream& out) {
   if (tune.band && is_of_noise) fmt::print(out, "{:<22}{}\n", "limits hold over", band_words(study));
   if (!tune.drawn.empty())
     fmt::print(out, "{:<22}{}{}\n", "samples", tune.drawn,
-               tune.quantile < 1.0 ? fmt::format(", of which the share {} counts", tune.quantile) : "");
+               tune.peaks && tune.peaks->goal.share < 1.0
+                   ? fmt::format(", of which the share {} counts", tune.peaks->goal.share)
+                   : "");
   else if (!tune.scenarios.empty())
     fmt::print(out, "{:<22}{}\n", "scenarios", fmt::join(scenario_names(study), ", "));
 }

@@ -98,8 +98,7 @@ tuning::RecordTask record_task(const Study& study) {
     task.records.push_back(driven_by(tune.peaks->driving, r));
   task.duration = tune.peaks->duration;
   task.coordinate = tuned_coordinate(tune.peaks->quantity, task.network);
-  task.objective = tune.peaks->objective;
-  task.share = tune.quantile;
+  task.goal = tune.peaks->goal;
   task.solver = tune.solver;
   task.tolerance = tune.tolerance;
   return task;

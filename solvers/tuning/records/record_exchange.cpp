@@ -39,7 +39,7 @@ Optimum RecordExchange::run(std::vector<double> design) {
   left_out_ = best_.found.above;
   chosen_ = {left_out_};
   close_gap();
-  for (int choice = 0; choice < kMostChoices && task_.share < 1.0 && goes_on(); ++choice) {
+  for (int choice = 0; choice < kMostChoices && task_.goal.share < 1.0 && goes_on(); ++choice) {
     if (!choose_again() && !exchange_one()) break;
   }
   return written();
@@ -54,15 +54,15 @@ DesignPeaks RecordExchange::look(const std::vector<double>& design) {
 
 // The objective of the scenarios kept.
 double RecordExchange::counted(const DesignPeaks& found) const {
-  return objective_of(task_.objective, largest_of(found, left_out_));
+  return objective_of(task_.goal.objective, largest_of(found, left_out_));
 }
 
 // The high peaks become active times, each once.
 void RecordExchange::join(const DesignPeaks& found) {
-  const double worst = counted(found), high = task_.share < 1.0 ? kHighOfMany : kHighPeaks;
+  const double worst = counted(found), high = task_.goal.share < 1.0 ? kHighOfMany : kHighPeaks;
   for (const auto& motion : found.motions) {
     if (is_left_out(left_out_, motion.front().place.scenario)) continue;
-    const double counts = task_.objective == RecordObjective::worst_peak ? worst : motion.front().value;
+    const double counts = task_.goal.objective == RecordObjective::worst_peak ? worst : motion.front().value;
     for (const FoundPeak& peak : motion) {
       if (peak.value < high * counts) continue;
       const bool known = std::ranges::any_of(active_, [&](const PeakPlace& other) {

@@ -76,10 +76,10 @@ DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
       largest.push_back(peaks.motions.back().front().value);
     }
   }
-  peaks.objective = objective_of(task.objective, largest);
-  if (task.objective == RecordObjective::mean_peak) return peaks;
+  peaks.objective = objective_of(task.goal.objective, largest);
+  if (task.goal.objective == RecordObjective::mean_peak) return peaks;
   const std::vector<double> worst = worst_of_scenarios(peaks, task.scenarios.size());
-  peaks.above = above_share(worst, task.share);
+  peaks.above = above_share(worst, task.goal.share);
   peaks.objective = 0.0;
   for (std::size_t s = 0; s < worst.size(); ++s) {
     if (!peaks.above[s]) peaks.objective = std::max(peaks.objective, worst[s]);

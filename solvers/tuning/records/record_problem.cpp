@@ -21,9 +21,9 @@ RecordProblem::RecordProblem(const RecordTask& task, const std::vector<PeakPlace
                          .start = start[p],
                          .scale = range > 0.0 ? range : 1.0});
   }
-  const double size = objective_of(task.objective, peaks);
+  const double size = objective_of(task.goal.objective, peaks);
   objective_scale = size > 0.0 ? size : 1.0;
-  if (task.objective == RecordObjective::worst_peak) {
+  if (task.goal.objective == RecordObjective::worst_peak) {
     variables.push_back({.name = "worst", .lower = 0.0, .start = size, .scale = objective_scale});
   } else {
     for (const double peak : peaks)

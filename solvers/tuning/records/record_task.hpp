@@ -17,6 +17,15 @@ enum class RecordObjective {
   mean_peak,   // least mean of them
 };
 
+// What is minimised of the peaks.
+struct PeakGoal {
+  RecordObjective objective = RecordObjective::worst_peak;
+  // For worst_peak: the share of the scenarios, each with the worst of its records, that counts; the others
+  // are those with the largest peaks. Below 1 the objective is a quantile of the scenarios' peaks: the least
+  // number that as many of them as this share do not exceed (order statistic ceil(share n)).
+  double share = 1.0;  // > 0
+};
+
 struct RecordTask {
   mechanics::Network network;
   NetworkAt network_at;                     // `at` are the design parameters alone
@@ -26,11 +35,7 @@ struct RecordTask {
   std::vector<std::vector<transient::RecordedExcitation>> records;
   double duration = 0.0;       // of each motion [s], > 0
   std::size_t coordinate = 0;  // the mass or signal (mechanics/coordinates.hpp)
-  RecordObjective objective = RecordObjective::worst_peak;
-  // For worst_peak: the share of the scenarios, each with the worst of its records, that counts; the others
-  // are those with the largest peaks. Below 1 the objective is a quantile of the scenarios' peaks: the least
-  // number that as many of them as this share do not exceed (order statistic ceil(share n)).
-  double share = 1.0;  // > 0
+  PeakGoal goal;
 
   SolverKind solver = SolverKind::slsqp;  // a local one
   double tolerance = 1e-6;                // of the certificate gap, relative

@@ -13,8 +13,9 @@ void check(const RecordTask& task) {
   if (task.scenarios.empty()) refuse("a tuning needs a scenario");
   if (task.records.empty()) refuse("a tuning over records needs a record");
   if (!(task.duration > 0.0)) refuse("a tuning over records needs a duration above 0");
-  if (!(task.share > 0.0 && task.share <= 1.0)) refuse("a quantile belongs to a share above 0 and up to 1");
-  if (task.share < 1.0 && task.objective != RecordObjective::worst_peak)
+  if (!(task.goal.share > 0.0 && task.goal.share <= 1.0))
+    refuse("a quantile belongs to a share above 0 and up to 1");
+  if (task.goal.share < 1.0 && task.goal.objective != RecordObjective::worst_peak)
     refuse("a quantile belongs to the worst peaks");
   for (const DesignParameter& each : task.parameters) {
     if (each.schedule)

@@ -36,11 +36,12 @@ transient::MotionQuantity read_peak(const TuneReading& reading, const TomlSectio
 // The share of the samples whose worst peaks count.
 void read_quantile(const TomlSection& section, TuneChoice& choice) {
   if (!section.find("quantile")) return;
-  choice.quantile = section.number("quantile");
+  tuning::PeakGoal& goal = choice.peaks->goal;
+  goal.share = section.number("quantile");
   if (choice.drawn.empty())
     section.fail(rules::beyond_schema(rules::key_without_use), "quantile",
                  "needs samples: give an [[axis]] of them, as in samples = 100");
-  if (choice.peaks->objective != tuning::RecordObjective::worst_peak)
+  if (goal.objective != tuning::RecordObjective::worst_peak)
     section.fail(rules::beyond_schema(rules::key_without_use), "quantile",
                  "belongs to the worst peaks of samples; write objective = \"worst_peak\"");
 }
@@ -107,7 +108,7 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   TuneChoice& choice = reading.choice;
   PeakChoice peaks;
   if (section.choice("objective", "", " under records") == "mean_peak")
-    peaks.objective = tuning::RecordObjective::mean_peak;
+    peaks.goal.objective = tuning::RecordObjective::mean_peak;
   check_excitation(reading, section);
   peaks.quantity = read_peak(reading, section);
   choice.quantity_name = section.text("quantity");

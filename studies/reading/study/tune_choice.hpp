@@ -77,7 +77,7 @@ struct ColumnChoice {
 
 // The peak that a tuning over records presses down.
 struct PeakChoice {
-  tuning::RecordObjective objective = tuning::RecordObjective::worst_peak;
+  tuning::PeakGoal goal;
   transient::MotionQuantity quantity;  // the peak of a mass or signal, or the stroke of an element
   double duration = 0.0;               // of each motion [s]
   std::vector<std::string> records;    // names of the motions, at least one
@@ -105,8 +105,7 @@ struct TuneChoice {
   std::vector<DesignChoice> designs;  // at least one
   std::vector<LimitChoice> limits;
   std::vector<ScenarioChoice> scenarios;  // none: the study alone
-  std::string drawn;      // the samples that the scenarios are, for readers; "" where they are no samples
-  double quantile = 1.0;  // of the worst peaks of all samples: their share that the objective bounds
+  std::string drawn;  // the samples that the scenarios are, for readers; "" where they are no samples
   std::vector<ColumnChoice> columns;
 
   bool has_schedule() const;

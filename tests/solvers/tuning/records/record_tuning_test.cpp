@@ -92,7 +92,7 @@ double scanned(const RecordTask& task, std::vector<double> design) {
     worst = std::max(worst, peak);
     sum += peak;
   }
-  const bool is_worst = task.objective == RecordObjective::worst_peak;
+  const bool is_worst = task.goal.objective == RecordObjective::worst_peak;
   return is_worst ? worst : sum / static_cast<double>(task.records.size());
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("The tuned slip force of two storeys has the least worst and mean drif
   const Frame frame;
   for (const RecordObjective objective : {RecordObjective::worst_peak, RecordObjective::mean_peak}) {
     RecordTask task = frame.task(false);
-    task.objective = objective;
+    task.goal.objective = objective;
     const Optimum optimum = best_of_starts(task, 6);
     const double least = least_of_scan(task);
     INFO(optimum.reason << " F = " << optimum.parameters[0].value[0] << ", " << optimum.rounds.size()
@@ -201,7 +201,7 @@ RecordTask scattered(const Frame& frame, std::size_t samples, double share) {
   task.parameters[0].upper = 9.0;
   task.records.resize(2);
   task.duration = 6.0;
-  task.share = share;
+  task.goal.share = share;
   task.scenarios.assign(samples, "sample");
   std::mt19937 random(7);
   std::normal_distribution<double> normal(1.0, 0.1);
@@ -270,9 +270,9 @@ TEST_CASE("A share of all scenarios is the worst of them, and one of none or of 
   const Frame frame;
   RecordTask all = scattered(frame, 3, 1.0), most = scattered(frame, 3, 0.99);
   CHECK(tune_over_records(all, 0, never).objective == tune_over_records(most, 0, never).objective);
-  all.share = 0.0;
+  all.goal.share = 0.0;
   CHECK_THROWS_WITH(tune_over_records(all, 0, never), Catch::Contains("share above 0"));
-  most.objective = RecordObjective::mean_peak;
+  most.goal.objective = RecordObjective::mean_peak;
   CHECK_THROWS_WITH(tune_over_records(most, 0, never), Catch::Contains("worst peaks"));
 }
 

@@ -222,7 +222,7 @@ TEST_CASE("a tuning over records has what drives each of its motions, and the pe
       "[[scenario]]\nname = \"soft\"\nset = { k = 3.0 }\n"
       "[[output.signal]]\nname = \"drift\"\nalong = { m = 1, base = -1 }\n");
   const auto task = record_task(study);
-  CHECK(task.objective == frahm::tuning::RecordObjective::mean_peak);
+  CHECK(task.goal.objective == frahm::tuning::RecordObjective::mean_peak);
   CHECK(task.coordinate == 1);
   CHECK(task.duration == 5.0);  // the longest record's
   CHECK(study.tune()->starts == 3);
@@ -255,7 +255,7 @@ TEST_CASE("samples are scenarios of a tuning, and a stroke is tuned as a signal'
   CHECK(study.tune()->scenarios.size() == 8);
   CHECK(study.tune()->drawn == "8 points of sobol, seed 1");
   const frahm::tuning::RecordTask task = record_task(study);
-  CHECK(task.share == 0.75);
+  CHECK(task.goal.share == 0.75);
   CHECK(task.scenarios.size() == 8);
   CHECK(task.records.size() == 2);
   REQUIRE(task.network.signals.size() == 1);
