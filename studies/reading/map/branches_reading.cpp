@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "studies/reading/study/assignment_reading.hpp"
+#include "studies/reading/system/unfit_elements.hpp"
 #include "studies/reading/text/toml_reading.hpp"
 
 // `branches` of [output].
@@ -92,10 +94,13 @@ void read_rows(const StudyContext& context, const TomlSection& section, const St
 }
 
 void check_elements(const TomlSection& section, const Study& study) {
-  for (const mechanics::Element& element : study.network.elements) {
-    if (element.law != mechanics::FrictionLaw::exact)
+  const auto& elements = study.network.elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const mechanics::Element& element = elements[e];
+    if (mechanics::has_smooth_law(element))
       section.fail(rules::wrong_law, "branches",
-                   "element \"{}\" follows the arctan law, but branches need the exact one", element.name);
+                   "element \"{}\" follows the law \"{}\", which is integrated, but branches need exact laws",
+                   element.name, smooth_key(study, e).law);
     if (element.name == "none" || element.name == "not_computed")
       section.fail(rules::name_taken, "branches",
                    "\"{}\" means no element in the record of branches; rename this element", element.name);
