@@ -117,6 +117,10 @@ bool ElementKind::is_inertia_alone() const {
          stop == nullptr;
 }
 
+bool is_linear(const Element& element) {
+  return !has_contact(element) && element.bends.empty() && !element.has_smooth_spring;
+}
+
 std::size_t reported_by(const Network& network, std::size_t e) {
   while (network.elements[e].parts == 0) --e;
   return e;
@@ -128,9 +132,7 @@ const Element* frequency_dependent_element(const Network& network) {
 
 const Element* element_unfit_for_noise(const Network& network) {
   const auto is_unfit = [](const Element& element) {
-    const ElementKind& kind = kind_of(element);
-    return kind.law != nullptr || kind.depends_on_frequency || !element.bends.empty() ||
-           element.has_smooth_spring;
+    return !is_linear(element) || kind_of(element).depends_on_frequency;
   };
   const auto found = std::ranges::find_if(network.elements, is_unfit);
   return found == network.elements.end() ? nullptr : &*found;

@@ -120,6 +120,9 @@ inline bool has_contact(const Element& element) {
   return kind_of(element).law != nullptr;
 }
 
+// Whether its force is in proportion to the motion across it.
+bool is_linear(const Element& element);
+
 // Whether it has one that is reported by itself; the sliders of an iwan element are reported together.
 inline bool has_own_contact(const Element& element) {
   return has_contact(element) && element.parts == 1;

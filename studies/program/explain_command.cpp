@@ -213,11 +213,19 @@ std::string owners_text(const KeyOwners& owners) {
   return fmt::format("; for {}{}", decider, listed(separated(owners.of), " or "));
 }
 
+// "; default 8".
+std::string default_text(const StudyKey& key) {
+  if (!key.by_default) return "";
+  const double number = *key.by_default;
+  return key.form == KeyForm::boolean ? fmt::format("; default {}", number != 0.0)
+                                      : fmt::format("; default {}", number);
+}
+
 // What stands in the table of keys.
 std::string meaning_of(const StudyKey& key) {
   const std::vector<std::string> words = words_of(key);
   const std::string choices = words.empty() ? "" : fmt::format(" ({})", listed(words, " or "));
-  return key.meaning + choices + owners_text(key.owners);
+  return key.meaning + choices + default_text(key) + owners_text(key.owners);
 }
 
 // The values of a type of element, and what stands of its other keys in the table of keys.

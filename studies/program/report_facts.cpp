@@ -109,11 +109,9 @@ std::vector<results::Column> limit_bands(const Study& study) {
   return bands;
 }
 
-// Whether a response is not in proportion to its excitation.
-bool is_nonlinear(const mechanics::Network& network) {
-  return std::ranges::any_of(network.elements, [](const mechanics::Element& each) {
-    return mechanics::has_contact(each) || !each.bends.empty() || each.has_smooth_spring;
-  });
+// Whether the response is in proportion to its excitation.
+bool is_linear(const mechanics::Network& network) {
+  return std::ranges::all_of(network.elements, [](const auto& each) { return mechanics::is_linear(each); });
 }
 
 // "force of 100 N on main", "motion of base, 0.0127 m"; where the amplitude follows the band it is reported
@@ -161,7 +159,7 @@ std::string excitation_with(const Study& study, std::span<const Assignment> set)
 // The excitation for which an optimum holds; of each scenario, where these differ in it. None where the
 // response is in proportion to it.
 std::vector<results::Text> excitation_of_optimum(const Study& study) {
-  if (!is_nonlinear(study.network)) return {};
+  if (is_linear(study.network)) return {};
   std::vector<results::Text> texts;
   for (const ScenarioChoice& scenario : study.tune()->scenarios)
     texts.push_back({"excitation_" + scenario.name, excitation_with(study, scenario.set)});

@@ -331,12 +331,19 @@ Json rules_of_study() {
   return rules;
 }
 
+Json default_json(const StudyKey& key) {
+  const double number = *key.by_default;
+  if (key.form == KeyForm::boolean) return number != 0.0;
+  return key.form == KeyForm::integer ? Json(static_cast<std::int64_t>(number)) : Json(number);
+}
+
 Json section_schema(const std::string& path) {
   Json keys = Json::object(), required = Json::array();
   for (const StudyKey& key : study_keys()) {
     if (key.section != path) continue;
     Json form = forms_of(key);
     form["description"] = key.meaning;
+    if (key.by_default) form["default"] = default_json(key);
     keys[key.key] = std::move(form);
     if (needs(key, "")) required.push_back(key.key);
   }

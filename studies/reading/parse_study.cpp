@@ -103,7 +103,7 @@ void read_heading(const TomlValue& root, Study& study) {
     throw study.source.error_at(rules::missing_section, root.position,
                                 "[study] with schema and kind is missing");
   const TomlSection section(study.source, heading->value, "[study]", "study");
-  section.integer_or("schema", 1);
+  section.integer("schema");
   const auto kind = section.choice_as<StudyKind>("kind");
   if (kind == StudyKind::sweep) study.choice = SweepChoice{};
   if (kind == StudyKind::decay) study.choice = DecayChoice{};

@@ -86,7 +86,7 @@ class Study:
 
     @property
     def kind(self) -> str:
-        """"sweep", "decay", "transient", "tune" or "identify"."""
+        """As `kind` of [study] says it: "sweep", "tune" ..."""
         return self._study.kind
 
     @property

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "solvers/flow/sizes.hpp"
+#include "solvers/orbits/orbits_wanted.hpp"
 #include "studies/reading/keys/element_keys.hpp"
 #include "studies/reading/keys/study_words.hpp"
 
@@ -49,10 +50,11 @@ constexpr double most_contacts = periodic::kMostContacts;
 constexpr double highest_order = 1000;  // events are searched on samples of the highest one over a period
 constexpr double most_axis_points = 1'000'000;
 constexpr double most_records = 1'000'000;
-constexpr double most_samples = 10'000'000;  // of a history: some hundred megabytes
-constexpr double longest_multiple = 64;      // the motions are followed for 324 periods and more
-constexpr double largest_tolerance = 0.1;    // of the certificate: above it nothing is certified
-constexpr double least_quantile = 1e-6;      // rarer than any sample here can tell
+constexpr double most_samples = 10'000'000;      // of a history: some hundred megabytes
+constexpr double samples_of_a_transient = 1001;  // smooth to the eye over dozens of periods
+constexpr double longest_multiple = 64;          // the motions are followed for 324 periods and more
+constexpr double largest_tolerance = 0.1;        // of the certificate: above it nothing is certified
+constexpr double least_quantile = 1e-6;          // rarer than any sample here can tell
 
 constexpr StudyKey all_keys[] = {
     {"", "study", KeyForm::table, Use::nowhere, "what kind of study it is", needed},
@@ -149,7 +151,8 @@ constexpr StudyKey all_keys[] = {
      Or{KeyForm::values}, Length{2, 2}, not_negative},
     {"element", "tension", KeyForm::boolean, Use::physics,
      "whether a gap may pull. true: in contact it may also pull, until u is back at the clearance; false: "
-     "contact ends where it would pull, which only damping makes it do"},
+     "contact ends where it would pull, which only damping makes it do",
+     Default{0}},
     {"element", "stiffnesses", KeyForm::values, Use::physics,
      "stiffness of each slider of an iwan element [N/m]"},
     {"element", "forces", KeyForm::values, Use::physics,
@@ -179,7 +182,7 @@ constexpr StudyKey all_keys[] = {
     {"excitation.force", "amplitude", KeyForm::value, Use::physics,
      "[N], for a rotation [N m]: amplitude cos(order omega t + phase)", needed},
     {"excitation.force", "order", KeyForm::integer, Use::physics,
-     "multiple of the frequency, default 1; 0 is a constant", from(0, highest_order)},
+     "multiple of the frequency; 0 is a constant", from(0, highest_order), Default{1}},
     {"excitation.force", "phase", KeyForm::value, Use::physics, "[rad], default 0"},
     {"excitation.force", "profile", KeyForm::choice, Use::physics, "default harmonic", words::harmonic},
     {"excitation.motion", "node", KeyForm::name, Use::physics, "name of the support, a node without mass",
@@ -192,8 +195,8 @@ constexpr StudyKey all_keys[] = {
      "amplitude of its velocity [m/s]; with order 0, a belt", of("profile", "harmonic")},
     {"excitation.motion", "acceleration", KeyForm::value, Use::physics,
      "amplitude of its acceleration [m/s2]", of("profile", "harmonic")},
-    {"excitation.motion", "order", KeyForm::integer, Use::physics, "multiple of the frequency, default 1",
-     of("profile", "harmonic"), from(0, highest_order)},
+    {"excitation.motion", "order", KeyForm::integer, Use::physics, "multiple of the frequency",
+     of("profile", "harmonic"), from(0, highest_order), Default{1}},
     {"excitation.motion", "phase", KeyForm::value, Use::physics, "[rad], default 0"},
     {"excitation.motion", "crank", KeyForm::value, Use::physics, "radius of a crank [m]",
      of("profile", "crank"), needed, not_negative},
@@ -243,7 +246,8 @@ constexpr StudyKey all_keys[] = {
      of("", "samples"), needed, from(2, most_axis_points)},
     {"axis", "sequence", KeyForm::choice, Use::grid, "how samples are drawn", words::sequences,
      of("", "samples")},
-    {"axis", "seed", KeyForm::integer, Use::grid, "seed of the samples", of("", "samples"), not_negative},
+    {"axis", "seed", KeyForm::integer, Use::grid, "seed of the samples", of("", "samples"), not_negative,
+     Default{1}},
     {"axis", "of", KeyForm::tables, Use::nowhere, "a parameter that is uncertain, with its distribution",
      of("", "samples")},
     {"axis", "fixed_from", KeyForm::text, Use::grid,
@@ -274,7 +278,8 @@ constexpr StudyKey all_keys[] = {
      words::generators, needed},
     {"axis.records", "count", KeyForm::integer, Use::physics, "number of records", needed,
      from(1, most_records)},
-    {"axis.records", "seed", KeyForm::integer, Use::physics, "seed of the random numbers", not_negative},
+    {"axis.records", "seed", KeyForm::integer, Use::physics, "seed of the random numbers", not_negative,
+     Default{1}},
     {"axis.records", "duration", KeyForm::plain_value, Use::physics, "duration of each record [s]", needed,
      positive},
     {"axis.records", "rate", KeyForm::number, Use::physics, "samples per second", needed, positive},
@@ -313,7 +318,7 @@ constexpr StudyKey all_keys[] = {
     {"output", "path", KeyForm::choice, Use::physics, "how orbits are found", words::paths,
      of("kind", "sweep")},
     {"output", "borders", KeyForm::boolean, Use::grid, "locate where regimes change between points",
-     of("kind", "sweep")},
+     of("kind", "sweep"), Default{0}},
     {"output", "branches", KeyForm::boolean, Use::grid,
      "true, or { along, at }: follow branches through folds", of("kind", "sweep"), Or{KeyForm::table}},
     {"output", "orbits", KeyForm::list_of_settings, Use::grid, "points whose time histories are recorded",
@@ -334,9 +339,11 @@ constexpr StudyKey all_keys[] = {
     {"output.signal", "name", KeyForm::name, Use::physics, "name of the signal", needed},
     {"output.signal", "along", KeyForm::settings, Use::physics, "{ mass = factor, ... }", needed},
     {"orbits", "starts", KeyForm::integer, Use::physics,
-     "number of states from which the search at each point starts", from(1, 10'000)},
+     "number of states from which the search at each point starts", from(1, 10'000),
+     Default{periodic::OrbitsWanted{}.starts}},
     {"orbits", "most_multiple", KeyForm::integer, Use::physics,
-     "longest period, in periods of the excitation", from(1, longest_multiple)},
+     "longest period, in periods of the excitation", from(1, longest_multiple),
+     Default{periodic::OrbitsWanted{}.most_multiple}},
     {"orbits", "show", KeyForm::choice, Use::physics, "which response a map shows", words::responses,
      of("kind", "sweep")},
     {"compare", "law", KeyForm::choice, Use::physics, "the other law of friction", words::compared_laws},
@@ -355,13 +362,13 @@ constexpr StudyKey all_keys[] = {
     {"report", "height", KeyForm::number, Use::label, "heights of those masses [m]", of("kind", "sweep"),
      Or{KeyForm::numbers}, Length{2}},
     {"decay", "duration", KeyForm::value, Use::grid, "duration [s]; default: until rest", positive},
-    {"decay", "samples", KeyForm::integer, Use::grid, "number of samples of the history; default none",
-     from_or(2, most_samples, 0)},
+    {"decay", "samples", KeyForm::integer, Use::grid, "number of samples of the history; 0: none",
+     from_or(2, most_samples, 0), Default{0}},
     {"decay", "reference_frequency", KeyForm::value, Use::physics,
      "frequency of loss factors [rad/s]; default: the lowest natural frequency", positive},
     {"transient", "duration", KeyForm::value, Use::grid, "[s]", positive},
-    {"transient", "samples", KeyForm::integer, Use::grid, "number of samples of the history; default 1001",
-     from(2, most_samples)},
+    {"transient", "samples", KeyForm::integer, Use::grid, "number of samples of the history",
+     from(2, most_samples), Default{samples_of_a_transient}},
     {"transient", "sweep_to", KeyForm::value, Use::physics, "frequency at the end of a run-up [rad/s]",
      positive},
     {"transient", "sweep_rate", KeyForm::value, Use::physics, "rate of change of the frequency [rad/s2]",
@@ -379,7 +386,7 @@ constexpr StudyKey all_keys[] = {
     {"tune", "global", KeyForm::choice, Use::physics, "a search over the whole box first",
      words::global_searches, of("", "band")},
     {"tune", "tolerance", KeyForm::number, Use::physics, "relative tolerance of the optimum",
-     between(0.0, largest_tolerance)},
+     between(0.0, largest_tolerance), Default{1e-6}},
     {"tune", "weight", KeyForm::text, Use::physics,
      "factor on the quantity, an expression of the band's parameter", of("", "band")},
     {"tune", "dominate", KeyForm::choice, Use::physics,
@@ -415,7 +422,8 @@ constexpr StudyKey all_keys[] = {
     {"design.schedule", "knots", KeyForm::integer, Use::physics, "number of its knots, or their places",
      Or{KeyForm::numbers}, Length{2}, needed, from(2, 10'000)},
     {"design.schedule", "max_slope", KeyForm::number, Use::physics, "bound on its slope", positive},
-    {"design.schedule", "jumps", KeyForm::integer, Use::physics, "1: it may jump once", from(0, 1)},
+    {"design.schedule", "jumps", KeyForm::integer, Use::physics, "1: it may jump once", from(0, 1),
+     Default{0}},
     {"constraint", "quantity", KeyForm::name, Use::physics, "the quantity that is limited", needed},
     {"constraint", "lower", KeyForm::number, Use::physics, "its lower limit"},
     {"constraint", "upper", KeyForm::number, Use::physics, "its upper limit"},
@@ -446,7 +454,7 @@ constexpr StudyKey all_keys[] = {
     {"identify", "cycles", KeyForm::integer, Use::physics, "number of cycles of a logarithmic decrement",
      of("method", "log_decrement"), from(1, 1'000'000)},
     {"identify", "sensor_offset", KeyForm::boolean, Use::physics, "true: the sensor's zero is also estimated",
-     of("method", "free_decay")},
+     of("method", "free_decay"), Default{0}},
     {"identify", "mass", KeyForm::value, Use::physics, "known mass [kg]",
      of("method", "free_decay|forced_resonance"), positive},
     {"identify", "stiffness", KeyForm::value, Use::physics, "known stiffness [N/m]",
@@ -482,7 +490,7 @@ constexpr StudyKey all_keys[] = {
      of("method", "grey_box")},
     {"identify.parameter", "unit", KeyForm::text, Use::physics, "unit of the bounds"},
     {"identify.parameter", "each_record", KeyForm::boolean, Use::physics,
-     "true: it has its own value in every record", of("method", "grey_box")},
+     "true: it has its own value in every record", of("method", "grey_box"), Default{0}},
     {"identify.parameter", "estimate", KeyForm::name, Use::physics, "the estimate of a formula that it takes",
      of("method", formulas.data()), needed},
     {"{ value, unit }", "value", KeyForm::number, Use::physics, "the number", needed},

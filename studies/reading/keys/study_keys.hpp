@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,6 +79,11 @@ struct Length {
   std::size_t most = std::numeric_limits<std::size_t>::max();
 };
 
+// What a number, a whole number or a flag (1: true) is where the key is left out.
+struct Default {
+  double value = 0.0;
+};
+
 // Forms of a section in which a key must be there.
 struct Needed {
   bool always = false;
@@ -114,6 +120,7 @@ struct StudyKey {
   Needed need{};
   Limits limits{};  // of a number, and of all numbers of a list
   Length length{};
+  std::optional<double> by_default{};  // none: nothing stands for it
   bool has_other = false;
   KeyForm other = KeyForm::value;  // where has_other
   const char* section_of_other = "";
@@ -125,6 +132,7 @@ struct StudyKey {
   constexpr void take(const Needed& forms) { need = forms; }
   constexpr void take(const Limits& numbers) { limits = numbers; }
   constexpr void take(const Length& entries) { length = entries; }
+  constexpr void take(const Default& number) { by_default = number.value; }
   constexpr void take(const Or& second) {
     has_other = true, other = second.form, section_of_other = second.section;
   }

@@ -123,14 +123,19 @@ std::string TomlSection::identifier(std::string_view key) const {
   return read_identifier(*source_, key_of(where_, key), require(key));
 }
 
-bool TomlSection::boolean_or(std::string_view key, bool otherwise) const {
-  const TomlValue* value = find(key);
-  if (!value) return otherwise;
-  if (!value->as<bool>()) fail(rules::wrong_type, key, "expected true or false, found {}", described(*value));
-  return *value->as<bool>();
+std::optional<double> TomlSection::default_of_absent(std::string_view key) const {
+  return find(key) ? std::nullopt : study_key(section_, key).by_default;
+}
+
+bool TomlSection::boolean(std::string_view key) const {
+  if (const auto number = default_of_absent(key)) return *number != 0.0;
+  const TomlValue& value = require(key);
+  if (!value.as<bool>()) fail(rules::wrong_type, key, "expected true or false, found {}", described(value));
+  return *value.as<bool>();
 }
 
 double TomlSection::number(std::string_view key) const {
+  if (const auto number = default_of_absent(key)) return *number;
   const double number = read_number(*source_, key_of(where_, key), require(key));
   check_limits(key, number, "");
   return number;
@@ -145,11 +150,11 @@ static std::optional<std::int64_t> whole_number(const TomlValue& value) {
   return static_cast<std::int64_t>(*number);
 }
 
-std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwise) const {
-  const TomlValue* value = find(key);
-  if (!value) return otherwise;
-  const auto integer = whole_number(*value);
-  if (!integer) fail(wrong_type_of(*value), key, "expected a whole number, found {}", described(*value));
+std::int64_t TomlSection::integer(std::string_view key) const {
+  if (const auto number = default_of_absent(key)) return static_cast<std::int64_t>(*number);
+  const TomlValue& value = require(key);
+  const auto integer = whole_number(value);
+  if (!integer) fail(wrong_type_of(value), key, "expected a whole number, found {}", described(value));
   check_limits(key, static_cast<double>(*integer), "a whole number ");
   return *integer;
 }

@@ -34,9 +34,10 @@ class TomlSection {
   std::string text(std::string_view key) const;          // required, not empty, without control characters
   std::string text_or(std::string_view key, std::string otherwise) const;
   std::string identifier(std::string_view key) const;  // required, of the form [A-Za-z][A-Za-z0-9_]*
-  bool boolean_or(std::string_view key, bool otherwise) const;
-  double number(std::string_view key) const;  // required, finite, within the limits of the table of keys
-  std::int64_t integer_or(std::string_view key, std::int64_t otherwise) const;
+  // Finite, within the limits of the table of keys; if absent, its default there, otherwise required.
+  double number(std::string_view key) const;
+  std::int64_t integer(std::string_view key) const;
+  bool boolean(std::string_view key) const;
   // One of the words of the table of keys; if absent `otherwise`, or the first of them. besides: what else
   // the key can be, for the message.
   std::string choice(std::string_view key, std::string_view otherwise = "",
@@ -68,6 +69,7 @@ class TomlSection {
 
  private:
   void check_limits(std::string_view key, double number, std::string_view kind) const;
+  std::optional<double> default_of_absent(std::string_view key) const;
   void require_keys(std::string_view form) const;
   void check_groups(std::string_view form) const;
   void check_group(const KeyGroup& group) const;

@@ -56,7 +56,7 @@ std::vector<double> even_knots(const tuning::Band& band, std::size_t count) {
 std::vector<double> read_knots(const TomlSection& section, const BandChoice& band) {
   const TomlValue& value = section.require("knots");
   if (!value.as<TomlArray>()) {
-    return even_knots(band.range, static_cast<std::size_t>(section.integer_or("knots", 0)));
+    return even_knots(band.range, static_cast<std::size_t>(section.integer("knots")));
   }
   std::vector<double> knots = read_numbers(section, "knots");
   for (double& knot : knots) knot *= band.unit.si_factor;
@@ -79,7 +79,7 @@ void read_jumps(const TuneReading& reading, const TomlSection& section, DesignCh
     section.fail_here(rules::beyond_schema(rules::key_without_use),
                       "another schedule jumps, and a schedule that jumps must be the only one");
   if (!section.find("jumps")) return;
-  design.may_leap = section.integer_or("jumps", 0) == 1;
+  design.may_leap = section.integer("jumps") == 1;
   if (!design.may_leap) return;
   if (reading.choice.objective != tuning::Objective::minimax)
     section.fail(rules::beyond_schema(rules::key_without_use), "jumps",

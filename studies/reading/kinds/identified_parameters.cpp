@@ -104,7 +104,7 @@ void read_identified_parameters(IdentifyReading& reading, const TomlSection& sec
       section.fail(rules::key_without_use, "estimate",
                    "a grey box estimates the parameters themselves; leave out this key");
     read_bounds(reading.study, section, identified);
-    identified.each_record = section.boolean_or("each_record", false);
+    identified.each_record = section.boolean("each_record");
   } else {
     read_estimate(reading, section, identified);
   }

@@ -23,9 +23,8 @@ void read_method(const TomlSection& section, IdentifyChoice& choice) {
   choice.method = section.choice_as<Method>("method");
   choice.start = section.choice_as<IdentifyStart>("start");
   choice.curve = section.choice_as<CurveOf>("curve");
-  choice.sensor_offset = section.boolean_or("sensor_offset", false);
-  if (!section.find("cycles")) return;
-  choice.cycles = static_cast<std::size_t>(section.integer_or("cycles", 1));
+  choice.sensor_offset = section.boolean("sensor_offset");
+  if (section.find("cycles")) choice.cycles = static_cast<std::size_t>(section.integer("cycles"));
 }
 
 void read_known_values(NetworkReading& reading, const TomlSection& section, IdentifyChoice& choice) {

@@ -18,8 +18,6 @@ namespace {
 
 using mechanics::NodeKind;
 
-constexpr std::int64_t samples_of_a_transient = 1001;  // smooth to the eye over dozens of periods
-
 InitialValues read_initial_values(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
                             label(table, "initial values of", "node", "initial", number), "initial");
@@ -54,7 +52,7 @@ void read_decay(NetworkReading& reading, const TomlValue& root, DecayChoice& mot
   const TomlEntry* entry = find_entry(root, "decay");
   const TomlSection section(reading.context.source, entry ? entry->value : nothing, "[decay]", "decay");
   motion.duration = read_optional(reading, section, "duration", Quantity::time);
-  motion.samples = static_cast<int>(section.integer_or("samples", 0));
+  motion.samples = static_cast<int>(section.integer("samples"));
   motion.reference_frequency =
       read_optional(reading, section, "reference_frequency", Quantity::angular_frequency);
 }
@@ -98,7 +96,7 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
   const TomlSection section(reading.context.source, find_entry(root, "transient")->value, "[transient]",
                             "transient");
   motion.duration = read_optional(reading, section, "duration", Quantity::time);
-  motion.samples = static_cast<int>(section.integer_or("samples", samples_of_a_transient));
+  motion.samples = static_cast<int>(section.integer("samples"));
   motion.sweep_to = read_optional(reading, section, "sweep_to", Quantity::angular_frequency);
   motion.sweep_rate = read_optional(reading, section, "sweep_rate", Quantity::angular_acceleration);
   if (motion.sweep_to) check_run_up(reading, section);

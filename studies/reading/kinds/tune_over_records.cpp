@@ -119,7 +119,7 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   if (choice.start == tuning::Start::global || choice.start == tuning::Start::map)
     section.fail(rules::beyond_schema(rules::key_without_use), "start",
                  "under records the whole box cannot be searched; write a number of starts");
-  read_tolerance(section, choice);
+  choice.tolerance = section.number("tolerance");
   choice.peaks = std::move(peaks);
   read_designs(reading);
   check_designs(reading, section);

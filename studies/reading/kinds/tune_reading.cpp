@@ -188,11 +188,6 @@ void check_dominate(const TuneReading& reading, const TomlSection& section) {
 
 }  // namespace
 
-void read_tolerance(const TomlSection& section, TuneChoice& choice) {
-  if (!section.find("tolerance")) return;
-  choice.tolerance = section.number("tolerance");
-}
-
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
                                       const std::string& key) {
   const std::string name = section.text(key);
@@ -284,7 +279,7 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
   read_noise(reading, section);
   read_band(reading, section);
   read_start(section, choice);
-  read_tolerance(section, choice);
+  choice.tolerance = section.number("tolerance");
   read_trade_off(reading, section);
   read_designs(reading);
   choice.solver = read_solver(section, choice);

@@ -25,9 +25,6 @@ struct TuneReading {
   TuneChoice choice = {};
 };
 
-// The key "tolerance".
-void read_tolerance(const TomlSection& section, TuneChoice& choice);
-
 // A real-valued quantity of the network, by its name at a key.
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
                                       const std::string& key);

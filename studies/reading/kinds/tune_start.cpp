@@ -43,7 +43,7 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
   const TomlValue* value = section.find("start");
   if (value && value->as<std::int64_t>()) {
     choice.start = tuning::Start::many;
-    choice.starts = static_cast<std::size_t>(section.integer_or("start", 1));
+    choice.starts = static_cast<std::size_t>(section.integer("start"));
   } else if (value && !value->as<std::string>()) {
     section.fail(rules::wrong_type, "start",
                  "expected \"map\", \"given\", \"nlopt\" or a number of starts, found {}", described(*value));

@@ -113,7 +113,7 @@ std::vector<double> spaced(double from, double to, std::size_t points, bool loga
 std::vector<double> read_range(const TomlSection& section) {
   const double from = section.number("from");
   const double to = section.number("to");
-  const std::int64_t points = section.integer_or("points", 0);
+  const std::int64_t points = section.integer("points");
   if (from == to)
     section.fail(rules::wrong_order, "to", "\"from\" and \"to\" are the same, {}; write values = [...]", to);
   const bool logarithmic = section.choice("spacing") == "log";

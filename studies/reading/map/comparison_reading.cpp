@@ -64,7 +64,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
 void read_compared_profile(const TomlSection& section, const Study& study, Comparison& comparison) {
   if (section.find("slope"))
     section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to a compared profile");
-  comparison.taylor_order = static_cast<int>(section.integer_or("taylor_order", 0));
+  comparison.taylor_order = static_cast<int>(section.integer("taylor_order"));
   const auto& excitations = study.network.excitations;
   const auto differs = [&](const mechanics::Excitation& each) {
     return each.kind == ExcitationKind::crank && each.taylor_order != comparison.taylor_order;

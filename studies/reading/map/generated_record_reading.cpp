@@ -94,8 +94,8 @@ GeneratedRecords read_generated(const StudyContext& context, const TomlSection& 
   GeneratedRecords generated;
   generated.kind = section.choice("generate");
   section.keep_to(generated.kind);
-  generated.count = static_cast<std::size_t>(section.integer_or("count", 1));
-  generated.sampling.seed = static_cast<std::uint64_t>(section.integer_or("seed", 1));
+  generated.count = static_cast<std::size_t>(section.integer("count"));
+  generated.sampling.seed = static_cast<std::uint64_t>(section.integer("seed"));
   generated.sampling.duration = read_positive(context, section, "duration", Quantity::time);
   generated.sampling.rate = section.number("rate");
   generated.ground.intensity = section.number("intensity");

@@ -27,8 +27,8 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
   const bool has_one = study.tune() ? !tuning::may_take_several_orbits(study.network)
                                     : !mechanics::may_have_several_responses(study.network);
   if (has_one) section.fail_here(rules::beyond_schema(rules::key_without_use), "{}", only_one_response());
-  wanted.starts = static_cast<int>(section.integer_or("starts", wanted.starts));
-  wanted.most_multiple = static_cast<int>(section.integer_or("most_multiple", wanted.most_multiple));
+  wanted.starts = static_cast<int>(section.integer("starts"));
+  wanted.most_multiple = static_cast<int>(section.integer("most_multiple"));
   if (study.tune()) {
     if (section.find("show"))
       section.fail(rules::beyond_schema(rules::key_without_use), "show",

@@ -64,7 +64,7 @@ void read_quantiles(const TomlSection& section, std::optional<SampleChoice>& sam
 }
 
 void read_borders(const TomlSection& section, Study& study) {
-  study.sweep()->borders = section.boolean_or("borders", false);
+  study.sweep()->borders = section.boolean("borders");
   if (!study.sweep()->borders) return;
   std::size_t contacts = 0;
   for (const mechanics::Element& element : study.network.elements) {

@@ -53,9 +53,9 @@ void set_values(SampleReading& reading, std::size_t i, const Eigen::VectorXd& dr
 void draw(SampleReading& reading, const TomlValue& table, const std::filesystem::path& folder,
           DataFiles data) {
   const TomlSection& section = reading.section;
-  const auto count = static_cast<std::size_t>(section.integer_or("samples", 0));
+  const auto count = static_cast<std::size_t>(section.integer("samples"));
   const std::string sequence = section.choice("sequence");
-  const auto seed = static_cast<std::uint64_t>(section.integer_or("seed", 1));
+  const auto seed = static_cast<std::uint64_t>(section.integer("seed"));
   const std::vector<samples::Distribution> distributions = read_distributions(table, reading);
   const JointEstimates joint = read_joint_estimates(reading, folder, data);
   const auto own = static_cast<Eigen::Index>(distributions.size());

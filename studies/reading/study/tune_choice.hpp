@@ -96,7 +96,7 @@ struct TuneChoice {
   tuning::Start start = tuning::Start::given;
   bool start_is_given = false;  // else a map of the box comes first where it takes well below a second
   std::size_t starts = 1;
-  double tolerance = 1e-6;
+  double tolerance = 0.0;  // relative, of the certificate gap
   std::optional<StudyValue> weight;
   bool dominate_constant = false;
   std::optional<TradeOffChoice> trade_off;

@@ -30,7 +30,7 @@ void read_stops(NetworkReading& reading, const TomlSection& section, const Eleme
   if (pair && pair->size() != 2)
     section.fail(rules::wrong_length, "clearance",
                  "expected one distance for both sides, or two: [lower, upper], inf for no stop");
-  const laws::Bend* law = section.boolean_or("tension", false) ? kind.pulling_stop : kind.stop;
+  const laws::Bend* law = section.boolean("tension") ? kind.pulling_stop : kind.stop;
   const auto add = [&](const TomlValue& value, double side) {
     if (const auto* number = value.as<double>(); number && *number == std::numeric_limits<double>::infinity())
       return;

@@ -34,7 +34,7 @@ WantedColumn wanted_column(const TomlSection& section, const std::string& key, c
     wanted.name = section.text(key);
     return wanted;
   }
-  wanted.number = static_cast<std::size_t>(section.integer_or(key, 1));
+  wanted.number = static_cast<std::size_t>(section.integer(key));
   return wanted;
 }
 

@@ -31,7 +31,7 @@ const std::string force_path = "excitation.force";
 const std::string motion_path = "excitation.motion";
 
 int read_order(const TomlSection& section, const std::string& key) {
-  return static_cast<int>(section.integer_or(key, 1));
+  return static_cast<int>(section.integer(key));
 }
 
 // "harmonic" or "crank", and no key of the other.
@@ -94,7 +94,7 @@ void read_component(NetworkReading& reading, const TomlSection& section, Excitat
 // The number of its even orders depends on crank/rod over the whole study: set_crank_orders().
 void read_crank(NetworkReading& reading, const TomlSection& section, Excitation component) {
   auto& [network, values] = reading.result;
-  const std::int64_t taylor_order = section.integer_or("taylor_order", 0);
+  const std::int64_t taylor_order = section.find("taylor_order") ? section.integer("taylor_order") : 0;
   component.taylor_order = static_cast<int>(taylor_order);
   component.even_orders = component.taylor_order / 2;
   network.excitations.push_back(component);

@@ -73,8 +73,7 @@ std::vector<StudySlider> spread_sliders(NetworkReading& reading, const TomlSecti
   }
   const bool is_power = section.choice("distribution") == "power";
   const double chi = read_exponent(section, is_power);
-  section.require("elements");
-  const std::int64_t n = section.integer_or("elements", 1);
+  const std::int64_t n = section.integer("elements");
   const StudyValue stiffness =
       read_value(reading, section, "stiffness", stiffness_of(rotational), range_of_type(iwan, "stiffness"));
   const StudyValue force =
