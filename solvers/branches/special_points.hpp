@@ -18,7 +18,7 @@ struct SpecialPlace {
 
 // The special places from one place of a branch to the next, in their order: where dp/ds changes its sign,
 // where the number of unstable multipliers changes, and where events begin or end. Each is solved on the
-// curve, at planes across the tangent of the first.
+// curve, at planes across the chord of the two.
 std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to);
 
 // How far an event (BranchMap::events) is from just happening: the width given, of the bracket that holds it,
