@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -85,8 +86,7 @@ void set_bends(const Network& network, const NetworkValues& values, Bends& bends
 
 bool may_have_several_responses(const Network& network) {
   return std::any_of(network.elements.begin(), network.elements.end(), [](const Element& element) {
-    return element.has_static_force || !element.bends.empty() || element.has_smooth_spring ||
-           element.law == FrictionLaw::stribeck;
+    return element.has_static_force || !element.bends.empty() || may_have_several_responses(element.law);
   });
 }
 

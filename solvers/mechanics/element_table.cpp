@@ -18,7 +18,7 @@ constexpr ElementKind kKinds[] = {
      .value = {"stiffness", "k", Dimension::stiffness, Range::finite},
      .adds = [](auto k, auto, auto) { return Added<decltype(k)>{.stiffness = k}; },
      .holds = true,
-     .cubic = {"cubic", "", Dimension::cubic_stiffness, Range::finite, true},
+     .cubic = {"cubic", "", Dimension::cubic_stiffness, Range::finite, true, ForceLaw::cubic},
      .stroke_is_standard = true,
      .table = &laws::spring_bend},
     {.type = ElementType::damper,
@@ -37,11 +37,11 @@ constexpr ElementKind kKinds[] = {
      .name = "coulomb",
      .force = "F sgn(v) while it slides, at rest up to F_s",
      .value = {"force", "F", Dimension::force, Range::not_negative},
-     .second = {"static_force", "F_s", Dimension::force, Range::not_negative, true, FrictionLaw::exact},
+     .second = {"static_force", "F_s", Dimension::force, Range::not_negative, true, ForceLaw::exact},
      .adds = [](auto F, auto, auto) { return Added<decltype(F)>{.limit = F}; },
      .law = &laws::coulomb,
      .dissipates = true,
-     .slope = {"slope", "", Dimension::inverse_speed, Range::positive, false, FrictionLaw::arctan}},
+     .slope = {"slope", "", Dimension::inverse_speed, Range::positive, false, ForceLaw::arctan}},
     {.type = ElementType::hysteretic,
      .name = "hysteretic",
      .force = "k u + (eta k / omega_h) v: the complex stiffness k (1 + i eta) at omega_h",
@@ -118,7 +118,7 @@ bool ElementKind::is_inertia_alone() const {
 }
 
 bool is_linear(const Element& element) {
-  return !has_contact(element) && element.bends.empty() && !element.has_smooth_spring;
+  return !has_contact(element) && element.bends.empty() && element.law == ForceLaw::exact;
 }
 
 std::size_t reported_by(const Network& network, std::size_t e) {

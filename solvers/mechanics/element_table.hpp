@@ -35,11 +35,11 @@ struct ValueKey {
   const char* symbol = "";  // in ElementKind::force; "": the key itself
   Dimension dimension = Dimension::number;
   Range range = Range::finite;
-  bool is_optional = false;          // 0 where it is left out
-  std::optional<FrictionLaw> law{};  // the only law of friction that has it; none: every law of the kind
+  bool is_optional = false;       // 0 where it is left out
+  std::optional<ForceLaw> law{};  // the only law that has it; none: every law of the kind
 
   constexpr bool exists() const { return key[0] != '\0'; }
-  constexpr bool exists_under(FrictionLaw of_element) const {
+  constexpr bool exists_under(ForceLaw of_element) const {
     return exists() && law.value_or(of_element) == of_element;
   }
 };

@@ -152,7 +152,7 @@ void Assembly::check_values(const NetworkValues& values) const {
     const auto keys = kind_of(element).values();
     for (std::size_t i = 0; i < keys.size(); ++i)
       if (keys[i]->exists_under(element.law)) check_value(*keys[i], element, number_of(values, i, e));
-    if (element.law == FrictionLaw::stribeck) check_curve(element, smooth_value(values, e).curve);
+    if (element.law == ForceLaw::stribeck) check_curve(element, smooth_value(values, e).curve);
     if (const double at_rest = static_force(element, values, e); at_rest < values.element[e] && at_rest > 0.0)
       refuse("static_force of '" + element.name + "'", at_rest, "must not be below its force");
   }

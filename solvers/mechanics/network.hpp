@@ -71,25 +71,24 @@ struct BendPlace {
   const laws::Bend* law = nullptr;
 };
 
-// For a coulomb element. Two are smooth: arctan, F (2/pi) arctan(slope v), and stribeck, a curve of the force
-// over the speed in place of F. Their numbers are NetworkValues::smooth.
-enum class FrictionLaw { exact, arctan, stribeck };
+// The law of an element's force. All but the exact one are smooth, and their numbers are
+// NetworkValues::smooth. Of a coulomb element: arctan, F (2/pi) arctan(slope v), and stribeck, a curve of the
+// force over the speed in place of F. Of a spring: cubic, which adds cubic u^3.
+enum class ForceLaw { exact, arctan, stribeck, cubic };
 
 struct Element {
   Element() = default;
-  Element(std::string given_name, ElementType kind, Direction direction,
-          FrictionLaw friction = FrictionLaw::exact)
-      : name(std::move(given_name)), type(kind), along(std::move(direction)), law(friction) {}
-  Element(std::string given_name, ElementType kind, Node a, Node b, FrictionLaw friction = FrictionLaw::exact)
-      : Element(std::move(given_name), kind, between(a, b), friction) {}
+  Element(std::string given_name, ElementType kind, Direction direction, ForceLaw of_force = ForceLaw::exact)
+      : name(std::move(given_name)), type(kind), along(std::move(direction)), law(of_force) {}
+  Element(std::string given_name, ElementType kind, Node a, Node b, ForceLaw of_force = ForceLaw::exact)
+      : Element(std::move(given_name), kind, between(a, b), of_force) {}
 
   std::string name;
   ElementType type = ElementType::spring;
   Direction along;  // its displacement u; each node once
-  FrictionLaw law = FrictionLaw::exact;
+  ForceLaw law = ForceLaw::exact;
   std::vector<BendPlace> bends;
-  bool has_static_force = false;   // of a coulomb element that follows the exact law: it is given one
-  bool has_smooth_spring = false;  // of a spring: it adds a smooth force of u, cubic u^3
+  bool has_static_force = false;  // of a coulomb element that follows the exact law: it is given one
   // For an iwan element: how many jenkins elements in parallel it is, from this one on, the first, by which
   // all are reported as one; 0 of those that follow.
   std::size_t parts = 1;

@@ -20,19 +20,17 @@ bool never_falls(const std::vector<CurvePoint>& curve) {
   return std::ranges::is_sorted(curve, {}, &CurvePoint::force);
 }
 
-// Whether the smooth force of a spring is not zero.
-bool adds_a_force(const SmoothValue& value) {
-  return std::ranges::any_of(smooth_numbers, [&](auto number) { return value.*number != 0.0; });
-}
-
-// Whether the force of a law of friction never falls with the speed.
-bool rises(FrictionLaw law, const SmoothValue& value) {
+// Whether two motions can only come nearer to each other by this law: a force of the velocity that never
+// falls, or none of the displacement.
+bool is_monotone(ForceLaw law, const SmoothValue& value) {
   switch (law) {
-    case FrictionLaw::exact:
-    case FrictionLaw::arctan:
+    case ForceLaw::exact:
+    case ForceLaw::arctan:
       return true;
-    case FrictionLaw::stribeck:
+    case ForceLaw::stribeck:
       return never_falls(value.curve);
+    case ForceLaw::cubic:
+      return value.cubic == 0.0;
   }
   return false;
 }
@@ -40,8 +38,31 @@ bool rises(FrictionLaw law, const SmoothValue& value) {
 }  // namespace
 
 bool has_smooth_law(const Element& element) {
-  const bool rubs_smoothly = element.type == ElementType::coulomb && element.law != FrictionLaw::exact;
-  return rubs_smoothly || element.has_smooth_spring;
+  return element.law != ForceLaw::exact;
+}
+
+bool is_of_displacement(ForceLaw law) {
+  switch (law) {
+    case ForceLaw::exact:
+    case ForceLaw::arctan:
+    case ForceLaw::stribeck:
+      return false;
+    case ForceLaw::cubic:
+      return true;
+  }
+  return false;
+}
+
+bool may_have_several_responses(ForceLaw law) {
+  switch (law) {
+    case ForceLaw::exact:
+    case ForceLaw::arctan:
+      return false;
+    case ForceLaw::stribeck:
+    case ForceLaw::cubic:
+      return true;
+  }
+  return false;
 }
 
 bool has_smooth_law(const Network& network) {
@@ -67,10 +88,11 @@ void check_curve(const Element& element, const std::vector<CurvePoint>& curve) {
 
 double friction_at_high_speed(const Element& element, const SmoothValue& value, double F) {
   switch (element.law) {
-    case FrictionLaw::exact:
-    case FrictionLaw::arctan:
+    case ForceLaw::exact:
+    case ForceLaw::arctan:
+    case ForceLaw::cubic:
       return F;
-    case FrictionLaw::stribeck:
+    case ForceLaw::stribeck:
       return value.curve.back().force;
   }
   return F;
@@ -79,8 +101,7 @@ double friction_at_high_speed(const Element& element, const SmoothValue& value, 
 bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values) {
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const SmoothValue& value = smooth_value(values, e);
-    if (network.elements[e].has_smooth_spring && adds_a_force(value)) return false;
-    if (!rises(network.elements[e].law, value)) return false;
+    if (!is_monotone(network.elements[e].law, value)) return false;
   }
   return true;
 }

@@ -7,6 +7,10 @@
 namespace frahm::mechanics {
 
 bool has_smooth_law(const Element& element);
+// Whether the force is one of the displacement, not of the velocity.
+bool is_of_displacement(ForceLaw law);
+// Whether the response may be one of several under it: it is not monotone, or its numbers decide.
+bool may_have_several_responses(ForceLaw law);
 bool has_smooth_law(const Network& network);
 
 // The numbers of the element's smooth law; zero where it has none.

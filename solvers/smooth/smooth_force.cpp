@@ -16,20 +16,23 @@ ForceAndSlope Cubic::at(double u) const {
   return {cubic * u * u * u, 3.0 * cubic * u * u};
 }
 
-SmoothForce::SmoothForce(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit)
-    : law_(Cubic{value.cubic}) {
-  if (element.has_smooth_spring) return;
+SmoothForce::Law SmoothForce::law_of(const mechanics::Element& element, const mechanics::SmoothValue& value,
+                                     double limit) {
   switch (element.law) {
-    case mechanics::FrictionLaw::exact:
-      throw std::logic_error("the exact law of '" + element.name + "' is not smooth");
-    case mechanics::FrictionLaw::arctan:
-      law_ = Arctan{limit, value.slope};
+    case mechanics::ForceLaw::exact:
       break;
-    case mechanics::FrictionLaw::stribeck:
-      law_ = FrictionCurve(value.curve);
-      break;
+    case mechanics::ForceLaw::arctan:
+      return Arctan{limit, value.slope};
+    case mechanics::ForceLaw::stribeck:
+      return FrictionCurve(value.curve);
+    case mechanics::ForceLaw::cubic:
+      return Cubic{value.cubic};
   }
+  throw std::logic_error("the exact law of '" + element.name + "' is not smooth");
 }
+
+SmoothForce::SmoothForce(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit)
+    : law_(law_of(element, value, limit)) {}
 
 // cubic u^3 = u / compliance; the end of a curve.
 double SmoothForce::bent_displacement(double omega, double compliance) const {

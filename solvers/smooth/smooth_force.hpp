@@ -37,7 +37,10 @@ class SmoothForce {
   double bent_displacement(double omega, double compliance) const;
 
  private:
-  std::variant<Arctan, FrictionCurve, Cubic> law_;
+  using Law = std::variant<Arctan, FrictionCurve, Cubic>;
+  static Law law_of(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit);
+
+  Law law_;
 };
 
 }  // namespace frahm::smooth

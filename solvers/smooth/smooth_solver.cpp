@@ -22,18 +22,18 @@ namespace frahm::smooth {
 namespace {
 
 using mechanics::Element;
-using mechanics::FrictionLaw;
+using mechanics::ForceLaw;
 using mechanics::Network;
 using periodic::History;
 
 // Whether the orbit under the exact law is near that under a smooth one.
 bool is_near_exact(const Element& element) {
-  if (element.has_smooth_spring) return false;
   switch (element.law) {
-    case FrictionLaw::exact:
-    case FrictionLaw::arctan:
+    case ForceLaw::exact:
+    case ForceLaw::arctan:
       return true;
-    case FrictionLaw::stribeck:
+    case ForceLaw::stribeck:
+    case ForceLaw::cubic:
       return false;
   }
   return false;
@@ -43,7 +43,7 @@ bool is_near_exact(const Element& element) {
 std::unique_ptr<periodic::ResponseSolver> solver_of_exact_law(Network network) {
   for (Element& element : network.elements) {
     if (!is_near_exact(element)) return nullptr;
-    element.law = FrictionLaw::exact;
+    element.law = ForceLaw::exact;
   }
   if (mechanics::Assembly(network).contacts() > periodic::kMostContacts) return nullptr;
   return periodic::make_exact_solver(network, {});

@@ -13,7 +13,7 @@
 namespace frahm::studies {
 namespace {
 
-using mechanics::FrictionLaw;
+using mechanics::ForceLaw;
 using periodic::QuantityDescription;
 
 std::string shown_text(periodic::OrbitsWanted::Show show) {
@@ -35,7 +35,7 @@ std::string circumstance(const Comparison& comparison) {
   if (comparison.show) return shown_text(*comparison.show);
   if (comparison.taylor_order > 0)
     return fmt::format("with the crank cut at order {}", comparison.taylor_order);
-  return comparison.law == FrictionLaw::arctan ? "under the arctan law" : "under the exact law";
+  return comparison.law == ForceLaw::arctan ? "under the arctan law" : "under the exact law";
 }
 
 QuantityDescription described(const Named& named, const std::string& unit) {
@@ -70,7 +70,7 @@ mechanics::Network compared_network(const Study& study) {
 StudyValues compared_values(const Study& study) {
   const Comparison& comparison = *study.sweep()->comparison;
   StudyValues values = study.values;
-  if (comparison.show || comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
+  if (comparison.show || comparison.taylor_order > 0 || comparison.law == ForceLaw::exact) return values;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     const auto keys = mechanics::kind_of(study.network.elements[e]).values();
     for (std::size_t i = 0; i < keys.size(); ++i)

@@ -173,7 +173,7 @@ void compare_peers(const Work& work, double (*peer_peak)(const NetworkValues&, c
   const double own = time_rows(work, peaks_of(work.network), Path::fastest, 5).seconds;
   mechanics::Network smooth = work.network;
   for (mechanics::Element& element : smooth.elements) {
-    if (element.type == mechanics::ElementType::coulomb) element.law = mechanics::FrictionLaw::arctan;
+    if (element.type == mechanics::ElementType::coulomb) element.law = mechanics::ForceLaw::arctan;
   }
   PeriodicResponse exact(work.network, peak), shooting(smooth, peak);
   Peer loose{"Boost.odeint dopri5 1e-3/1e-6, settled to 1e-4"},

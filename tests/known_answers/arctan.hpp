@@ -7,7 +7,7 @@ namespace frahm::periodic {
 
 inline mechanics::Network under_arctan(mechanics::Network network) {
   for (mechanics::Element& element : network.elements) {
-    if (element.type == mechanics::ElementType::coulomb) element.law = mechanics::FrictionLaw::arctan;
+    if (element.type == mechanics::ElementType::coulomb) element.law = mechanics::ForceLaw::arctan;
   }
   return network;
 }

@@ -287,7 +287,7 @@ TEST_CASE("the arctan orbit stays right beside the unbounded resonance and where
 
 TEST_CASE("friction laws are not mixed, and a slope is positive") {
   mechanics::Network network = under_arctan(rig());
-  network.elements[3].law = mechanics::FrictionLaw::exact;
+  network.elements[3].law = mechanics::ForceLaw::exact;
   CHECK_THROWS_AS(PeriodicResponse(network, {}), mechanics::MechanicsError);
   Responses smooth(under_arctan(single_mass()));
   CHECK_THROWS_AS(smooth.solve(with_slope(single_mass_values(0.9, 0.05, 0.2), 0.0)),

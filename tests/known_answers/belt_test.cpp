@@ -185,7 +185,7 @@ TEST_CASE("The smoothed law on a belt differs from the exact one as its slope le
   for (Network* network : {&exact, &smooth}) network->excitations.push_back({ExcitationKind::force, 0, 1});
   for (Network* network : {&exact, &smooth})
     network->elements.push_back({"damper", ElementType::damper, ground, block});
-  smooth.elements[1].law = FrictionLaw::arctan;
+  smooth.elements[1].law = ForceLaw::arctan;
   NetworkValues values = drive(0.8, 0.3, 0.0);
   values.element = {1.0, 0.3, 0.2};
   Responses of_exact(exact), of_smooth(smooth);

@@ -26,7 +26,7 @@ Network duffing() {
                   .elements = {{"spring", ElementType::spring, ground, mass},
                                {"damper", ElementType::damper, ground, mass}},
                   .excitations = {{ExcitationKind::force, 0, 1}}};
-  network.elements[0].has_smooth_spring = true;
+  network.elements[0].law = ForceLaw::cubic;
   return network;
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("An orbit of three periods of the force is found and told as one", "[s
                                {"leaf", ElementType::spring, machine, mass},
                                {"air", ElementType::damper, machine, mass}},
                   .excitations = {{ExcitationKind::force, 1, 1}}};
-  network.elements[0].has_smooth_spring = true;
+  network.elements[0].law = ForceLaw::cubic;
   const NetworkValues values{.omega = 6.0,
                              .mass = {1e-4, 1.0},
                              .element = {1.0, 0.04, 4e-4, 4e-6},

@@ -19,7 +19,7 @@ constexpr double kRatio = -3.25;
 const Node ground{}, first{NodeKind::mass, 0}, second{NodeKind::mass, 1}, base{NodeKind::prescribed, 0};
 
 // Order of the elements: spring, damper; link, its damper and friction; an inerter. All stand on `support`.
-Network plain(const Node& support, FrictionLaw law = FrictionLaw::exact) {
+Network plain(const Node& support, ForceLaw law = ForceLaw::exact) {
   return {.masses = {"main", "wheel"},
           .prescribed = {"base"},
           .elements = {{"spring", ElementType::spring, support, first},
@@ -92,7 +92,7 @@ TEST_CASE("a forced motion of a geared mass is that of the mass") {
 
 TEST_CASE("under the arctan law a geared mass moves as the mass") {
   constexpr double kSame = 1e-6;  // two integrations
-  Responses smooth(plain(ground, FrictionLaw::arctan)), turned(geared(plain(ground, FrictionLaw::arctan)));
+  Responses smooth(plain(ground, ForceLaw::arctan)), turned(geared(plain(ground, ForceLaw::arctan)));
   const NetworkValues values = plain_values(0.9, 0.15, 1e3);
   REQUIRE(smooth.solve(values).status == Status::ok);
   REQUIRE(turned.solve(geared_values(values)).status == Status::ok);

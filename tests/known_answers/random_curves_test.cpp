@@ -44,7 +44,7 @@ Drawn draw(unsigned trial) {
   NetworkValues& values = drawn.values;
   const int masses = 1 + pick(3);
   const auto node = [](int i) { return i < 0 ? Node{} : Node{NodeKind::mass, static_cast<std::size_t>(i)}; };
-  const auto add = [&](const char* kind, ElementType type, int a, int b, double value, FrictionLaw law) {
+  const auto add = [&](const char* kind, ElementType type, int a, int b, double value, ForceLaw law) {
     network.elements.emplace_back(kind + std::to_string(network.elements.size()), type, node(a), node(b),
                                   law);
     values.element.push_back(value);
@@ -53,12 +53,12 @@ Drawn draw(unsigned trial) {
   for (int i = 0; i < masses; ++i) {
     network.masses.push_back("m" + std::to_string(i));
     values.mass.push_back(uniform(0.3, 1.5));
-    add("k", ElementType::spring, i - 1, i, uniform(0.5, 2.0), FrictionLaw::exact);
+    add("k", ElementType::spring, i - 1, i, uniform(0.5, 2.0), ForceLaw::exact);
   }
   drawn.damped = pick(2) == 0;
   if (drawn.damped)
     for (int i = 0; i < masses; ++i)
-      add("c", ElementType::damper, i - 1, i, power(-1.5, -0.5), FrictionLaw::exact);
+      add("c", ElementType::damper, i - 1, i, power(-1.5, -0.5), ForceLaw::exact);
   const double P = power(-1.0, 0.5);
   network.excitations.push_back({ExcitationKind::force, static_cast<std::size_t>(pick(masses)), 1});
   values.excitation.push_back({P, uniform(0.0, 6.0)});
@@ -66,7 +66,7 @@ Drawn draw(unsigned trial) {
   drawn.rises = pick(2) == 0;
   for (int c = 0; c < curves; ++c) {
     const int at = c % masses;
-    add("f", ElementType::coulomb, pick(2) == 0 ? -1 : at - 1, at, 0.0, FrictionLaw::stribeck);
+    add("f", ElementType::coulomb, pick(2) == 0 ? -1 : at - 1, at, 0.0, ForceLaw::stribeck);
     std::vector<CurvePoint>& curve = values.smooth.back().curve;
     curve.push_back({});
     std::vector<double> forces;

@@ -23,7 +23,7 @@ const Curve kFalling = {{0.0, 0.0}, {0.05, 0.3}, {0.3, 0.2}, {1.0, 0.15}, {3.0, 
 
 Network rubbing_mass() {
   Network network = single_mass();
-  network.elements[2].law = FrictionLaw::stribeck;
+  network.elements[2].law = ForceLaw::stribeck;
   return network;
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("Values of smooth laws that break a rule are refused by name") {
        {Curve{}, Curve{{0.0, 0.1}, {1.0, 0.2}}, Curve{{0, 0}, {1, 1}, {1, 2}}, Curve{{0, 0}, {1, -1}}})
     CHECK_THROWS_WITH(response.solve(rubbing_values(0.9, 0.1, curve)), Catch::Contains("'friction'"));
   Network network = single_mass();
-  network.elements[0].has_smooth_spring = true;
+  network.elements[0].law = ForceLaw::cubic;
   CHECK_THROWS_WITH(Responses(network), Catch::Contains("'friction'") && Catch::Contains("exact law"));
 }
 

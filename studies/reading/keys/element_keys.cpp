@@ -38,20 +38,21 @@ std::vector<ElementForm> forms_of_type(std::string_view type) {
             {"distribution", "uniform", {"distribution", "stiffness", "force", "elements"}},
             {"distribution", "power", {"distribution", "stiffness", "force", "elements", "chi"}}};
   const ElementKind& kind = kind_called(type);
-  const auto add_values = [&](ElementForm& form, mechanics::FrictionLaw law) {
+  const auto add_values = [&](ElementForm& form, mechanics::ForceLaw law) {
     for (const mechanics::ValueKey* value : kind.values()) {
-      if (!value->exists_under(law)) continue;
+      // A kind without a key "law" follows the law of the numbers that it is given.
+      if (kind.can_be_smoothed() ? !value->exists_under(law) : !value->exists()) continue;
       (value->is_optional ? form.optional : form.needed).emplace_back(value->key);
     }
   };
   ElementForm by_value;
-  add_values(by_value, mechanics::FrictionLaw::exact);
+  add_values(by_value, mechanics::ForceLaw::exact);
   if (kind.stop != nullptr)
     by_value.needed.emplace_back("clearance"), by_value.optional.emplace_back("tension");
   if (kind.can_be_smoothed()) {
     by_value.decider = "law", by_value.word = "exact", by_value.optional.emplace_back("law");
     ElementForm arctan{"law", "arctan", {"law"}};
-    add_values(arctan, mechanics::FrictionLaw::arctan);
+    add_values(arctan, mechanics::ForceLaw::arctan);
     return {by_value, arctan, {"law", "stribeck", {"law", "table"}}};
   }
   if (kind.table != nullptr) return {by_value, {.needed = {"table"}}};

@@ -16,7 +16,7 @@ inline constexpr StudyWord kinds[] = {  // in the order of StudyKind
 inline constexpr StudyWord units[] = {{"SI", "values may have units, bare numbers are SI"},
                                       {"dimensionless", "all values are plain numbers"}};
 
-inline constexpr StudyWord friction_laws[] = {  // in the order of FrictionLaw
+inline constexpr StudyWord friction_laws[] = {  // in the order of ForceLaw
     {"exact", "F sgn(v) while it slides, up to F (or static_force) at rest; solved exactly"},
     {"arctan", "smooth: F (2/pi) arctan(slope v); integrated, an estimate"},
     {"stribeck", "smooth: the curve of `table`, force over speed; integrated, an estimate"}};

@@ -16,13 +16,13 @@ namespace frahm::studies {
 namespace {
 
 using mechanics::ExcitationKind;
-using mechanics::FrictionLaw;
+using mechanics::ForceLaw;
 
 // There is no exact law to compare these with.
 void refuse_other_smooth_laws(const TomlSection& section, const Study& study) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!mechanics::has_smooth_law(elements[e]) || elements[e].law == FrictionLaw::arctan) continue;
+    if (!mechanics::has_smooth_law(elements[e]) || elements[e].law == ForceLaw::arctan) continue;
     section.fail(rules::wrong_law, "law", "element \"{}\" has a {}, which no other law has", elements[e].name,
                  smooth_key(study, e).key);
   }
@@ -38,7 +38,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
     section.fail(rules::no_contact, "law", "the study has no coulomb element that could follow it");
   refuse_other_smooth_laws(section, study);
   const bool arctan = section.choice("law") == "arctan";
-  comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
+  comparison.law = arctan ? ForceLaw::arctan : ForceLaw::exact;
   if (arctan) {
     refuse_bends(study, "it cannot be combined with the compared law \"arctan\"");
     for (const mechanics::Element& each : elements) {
@@ -56,7 +56,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
   }
   if (section.find("slope"))
     section.fail(rules::key_without_use, "slope", "only the law \"arctan\" has a slope");
-  if (rubbing->law == FrictionLaw::exact)
+  if (rubbing->law == ForceLaw::exact)
     section.fail(rules::wrong_law, "law",
                  "the study already follows the exact law; compare it with \"arctan\"");
 }

@@ -69,7 +69,7 @@ void read_borders(const TomlSection& section, Study& study) {
   std::size_t contacts = 0;
   for (const mechanics::Element& element : study.network.elements) {
     if (!mechanics::has_own_contact(element)) continue;
-    if (element.law != mechanics::FrictionLaw::exact) {
+    if (element.law != mechanics::ForceLaw::exact) {
       section.fail(rules::wrong_law, "borders",
                    "element \"{}\" follows a smooth law, under which nothing sticks, so there are no regimes "
                    "with borders",

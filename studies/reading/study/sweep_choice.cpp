@@ -27,7 +27,7 @@ bool SweepChoice::sweeps_frequency() const {
 
 std::vector<const StudyValue*> SweepChoice::values() const {
   std::vector<const StudyValue*> all;
-  if (comparison && comparison->law == mechanics::FrictionLaw::arctan) all.push_back(&comparison->slope);
+  if (comparison && comparison->law == mechanics::ForceLaw::arctan) all.push_back(&comparison->slope);
   return all;
 }
 

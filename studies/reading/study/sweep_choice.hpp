@@ -29,11 +29,11 @@ std::vector<std::size_t> elements_with_events(const mechanics::Network& network)
 // A second response at the same points: another friction law, the cranks' motion cut at another order, or
 // another of several responses.
 struct Comparison {
-  int taylor_order = 0;  // of every crank: 1, 2 or 4; 0: the law differs
-  mechanics::FrictionLaw law = mechanics::FrictionLaw::exact;  // of every coulomb element
-  StudyValue slope;                                            // of the arctan law
-  std::optional<periodic::OrbitsWanted::Show> show;            // the law is then that of the study
-  std::vector<periodic::Quantity> quantities;                  // real-valued, at least one
+  int taylor_order = 0;                                  // of every crank: 1, 2 or 4; 0: the law differs
+  mechanics::ForceLaw law = mechanics::ForceLaw::exact;  // of every coulomb element
+  StudyValue slope;                                      // of the arctan law
+  std::optional<periodic::OrbitsWanted::Show> show;      // the law is then that of the study
+  std::vector<periodic::Quantity> quantities;            // real-valued, at least one
 };
 
 // The axes of a map of periodic responses and what is recorded of its points.

@@ -106,7 +106,7 @@ StudyCharacteristic read_characteristic(NetworkReading& reading, const TomlSecti
   StudyCharacteristic of;
   of.first = reading.result.values.points.size();
   const bool has_table = kind.table != nullptr && section.find("table");
-  const bool has_curve = element.law == mechanics::FrictionLaw::stribeck;
+  const bool has_curve = element.law == mechanics::ForceLaw::stribeck;
   if (!has_table && !has_curve && kind.stop == nullptr) return of;
   of.kind = has_curve ? Kind::curve : has_table ? Kind::table : Kind::stops;
   of.of_velocity = has_curve || (has_table && kind.table->of_velocity);

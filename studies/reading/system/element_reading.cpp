@@ -166,21 +166,12 @@ std::array<StudyValue, mechanics::numbers_of_an_element> read_numbers(
   return numbers;
 }
 
-// Whether it is given a smooth force next to its own: a smooth number that is of no law of friction.
-bool has_smooth_spring(const TomlSection& section, const ElementKind& kind) {
-  const auto keys = kind.values();
-  return std::any_of(keys.begin() + mechanics::first_smooth_number, keys.end(), [&](const ValueKey* key) {
-    return key->exists() && !key->law && section.find(key->key) != nullptr;
-  });
-}
-
 void add_of_kind(NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
                  mechanics::Element element, const StudyDirection& along) {
   check_keys_of_type(section, kind.name);
   element.law = read_law(section, kind);
   if (kind.law != nullptr) check_one_law(reading, section, kind, element.law);
   StudyCharacteristic characteristic = read_characteristic(reading, section, element.rotational, element);
-  element.has_smooth_spring = has_smooth_spring(section, kind);
   std::array<StudyValue, mechanics::numbers_of_an_element> numbers =
       read_numbers(reading, section, element, characteristic);
   element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;

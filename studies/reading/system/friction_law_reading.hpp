@@ -6,10 +6,11 @@
 
 namespace frahm::studies {
 
-// The law of a coulomb element; exact of every other. Refuses keys of other laws.
-mechanics::FrictionLaw read_law(const TomlSection& section, const mechanics::ElementKind& kind);
+// The law of a coulomb element, or of a number that one law alone has; otherwise exact. Refuses keys of other
+// laws.
+mechanics::ForceLaw read_law(const TomlSection& section, const mechanics::ElementKind& kind);
 // Refuses a contact beside others of which some are followed exactly and some are smooth.
 void check_one_law(const NetworkReading& reading, const TomlSection& section,
-                   const mechanics::ElementKind& kind, mechanics::FrictionLaw law);
+                   const mechanics::ElementKind& kind, mechanics::ForceLaw law);
 
 }  // namespace frahm::studies

@@ -43,7 +43,7 @@ std::size_t number_of_contacts(const mechanics::Network& network) {
 
 void check_number_of_contacts(const NetworkReading& reading, const TomlSection& section,
                               const mechanics::Element& element) {
-  if (!mechanics::has_contact(element) || element.law != mechanics::FrictionLaw::exact) return;
+  if (!mechanics::has_contact(element) || element.law != mechanics::ForceLaw::exact) return;
   const std::size_t contacts = number_of_contacts(reading.result.network);
   if (contacts <= periodic::kMostContacts) return;
   section.fail_here(

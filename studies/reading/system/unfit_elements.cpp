@@ -15,13 +15,13 @@ namespace frahm::studies {
 
 SmoothKey smooth_key(const Study& study, std::size_t element) {
   const mechanics::Element& of = study.network.elements[element];
-  const char* const law = study_key("element", "law").words[static_cast<std::size_t>(of.law)].word;
+  const bool is_chosen = mechanics::kind_of(of).can_be_smoothed();
+  const char* const law =
+      is_chosen ? study_key("element", "law").words[static_cast<std::size_t>(of.law)].word : "";
   const auto keys = mechanics::kind_of(of).values();
   for (std::size_t k = mechanics::first_smooth_number; k < keys.size(); ++k) {
     const StudyValue& value = study.values.elements[k][element];
-    if (value.is_given())
-      return {value.where, value.position, keys[k]->key,
-              of.law == mechanics::FrictionLaw::exact ? keys[k]->key : law};
+    if (value.is_given()) return {value.where, value.position, keys[k]->key, is_chosen ? law : keys[k]->key};
   }
   const StudyCharacteristic& curve = study.values.characteristic[element];
   return {curve.where, curve.position, "table", law};
@@ -68,10 +68,11 @@ void refuse_several_responses(const Study& study, const std::string& what_needs_
     const mechanics::Element& element = study.network.elements[e];
     const StudyCharacteristic& of = study.values.characteristic[e];
     const bool depends_on_numbers = of.kind == StudyCharacteristic::Kind::none || of.of_velocity;
-    if (!element.has_smooth_spring && !element.has_static_force && depends_on_numbers) continue;
+    const bool is_smooth_spring = mechanics::is_of_displacement(element.law);
+    if (!is_smooth_spring && !element.has_static_force && depends_on_numbers) continue;
     const StudyValue& at_rest = study.values.second(e);
     const SmoothKey spring = smooth_key(study, e);
-    const auto [where, position] = element.has_smooth_spring  ? std::pair(spring.where, spring.position)
+    const auto [where, position] = is_smooth_spring           ? std::pair(spring.where, spring.position)
                                    : element.has_static_force ? std::pair(at_rest.where, at_rest.position)
                                                               : std::pair(of.where, of.position);
     throw study.source.error_at(rules::several_responses, position,
@@ -85,7 +86,7 @@ std::string only_one_response() {
   for (const mechanics::ElementKind& kind : mechanics::element_kinds()) {
     const auto keys = kind.values();
     for (const mechanics::ValueKey* key : std::span(keys).subspan(mechanics::first_smooth_number))
-      if (key->exists() && !key->law) springs += fmt::format(", a {}", key->key);
+      if (key->law && mechanics::is_of_displacement(*key->law)) springs += fmt::format(", a {}", key->key);
   }
   return fmt::format(
       "has no effect: only one response exists here; several are searched for only if an element is a gap, "

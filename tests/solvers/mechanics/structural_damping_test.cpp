@@ -199,7 +199,7 @@ TEST_CASE("Modes of one frequency may have one ratio, but not two") {
 
 TEST_CASE("The arctan law too keeps the balance with damping of the structure") {
   Network network = chain(2, base, {0});
-  network.elements.back().law = FrictionLaw::arctan;
+  network.elements.back().law = ForceLaw::arctan;
   network.damping = DampingModel::modal;
   NetworkValues values = chain_values(network, 0.5);
   values.smooth.assign(3, {.slope = 200.0});

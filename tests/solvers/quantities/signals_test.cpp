@@ -294,7 +294,7 @@ TEST_CASE("under the arctan law a signal of one mass is that mass, and one along
   network.elements = {{"lower", ElementType::spring, support, mass(0)},
                       {"upper", ElementType::spring, mass(0), mass(1)},
                       {"damper", ElementType::damper, support, mass(0)},
-                      {"brace", ElementType::coulomb, mass(0), mass(1), FrictionLaw::arctan}};
+                      {"brace", ElementType::coulomb, mass(0), mass(1), ForceLaw::arctan}};
   network.excitations = {{ExcitationKind::motion, 0, 1}};
   network.signals = {{"again", {{mass(1), 1.0}}}, {"drift", network.elements[1].along}};
   const NetworkValues values{.omega = 0.7,

@@ -132,7 +132,7 @@ TEST_CASE("each number of a smooth law has a place of its own") {
 
   const Study falling =
       study_of("type = \"coulomb\"\nlaw = \"stribeck\"\ntable = [[0, 0], [0.1, \"F\"], [1, 0.3]]\n");
-  CHECK(falling.network.elements[1].law == FrictionLaw::stribeck);
+  CHECK(falling.network.elements[1].law == ForceLaw::stribeck);
   const mechanics::NetworkValues values = values_of(falling);
   CHECK(values.smooth[1].curve == std::vector<mechanics::CurvePoint>{{0.0, 0.0}, {0.1, 0.5}, {1.0, 0.3}});
   CHECK(values.element[1] == 0.0);
