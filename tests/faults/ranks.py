@@ -8,6 +8,7 @@ usage: ranks.py FRAHM SOURCE_DIR MPIEXEC
 import contextlib
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -77,6 +78,13 @@ def job_ended(process):
     outcome = ended(process)
     wait_for(lambda: not ranks_of(process), "the end of all ranks")
     return outcome
+
+
+def launcher_crashed(outcome):
+    """Open MPI's launcher may itself fall over (libpmix 4.2, PMIx_server_finalize) after rank 0 has ended the job without
+    the frozen rank. That is no fault of ours if rank 0 said that all is well."""
+    return (outcome.code == -signal.SIGSEGV and "PMIx_server_finalize" in outcome.err
+            and re.search(r"MPI_ABORT was invoked on rank 0 .*\s+with errorcode 0\.", outcome.err) is not None)
 
 
 def kept(place):
@@ -171,7 +179,7 @@ def freeze(launcher, bench, study, expected, at_call, thaws):
         outcome = job_ended(process)
         outcome.err = read_again(told)
     case = f"a rank that freezes{' and thaws' if thaws else ''}"
-    assert outcome.code == 0, f"{case}: {outcome}"
+    assert outcome.code == 0 or launcher_crashed(outcome), f"{case}: {outcome}"
     assert given_up in outcome.err, f"{case}: {outcome}"
     expected.check_file(place, case)
     expected.check_resume(place, case)
