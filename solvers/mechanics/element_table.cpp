@@ -149,7 +149,7 @@ double second_value(const NetworkValues& values, std::size_t element) {
 }
 
 double static_force(const Element& element, const NetworkValues& values, std::size_t index) {
-  return element.has_static_force ? second_value(values, index) : 0.0;
+  return element.has_static_force && element.law == ForceLaw::exact ? second_value(values, index) : 0.0;
 }
 
 }  // namespace frahm::mechanics

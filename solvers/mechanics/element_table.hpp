@@ -103,7 +103,7 @@ struct ElementKind {  // NOLINT(cppcoreguidelines-pro-type-member-init): rows gi
 
   // All that a study file may give, those too that the kind has not.
   constexpr std::array<const ValueKey*, numbers_of_an_element> values() const {
-    return {&value, &second, &slope, &cubic};  // the smooth ones as in smooth_numbers
+    return std::array{&value, &second, &slope, &cubic};  // the smooth ones as in smooth_numbers
   }
   constexpr bool can_be_smoothed() const { return slope.exists(); }
   // It feels the acceleration across it and nothing else.

@@ -20,8 +20,8 @@ bool never_falls(const std::vector<CurvePoint>& curve) {
   return std::ranges::is_sorted(curve, {}, &CurvePoint::force);
 }
 
-// Whether two motions can only come nearer to each other by this law: a force of the velocity that never
-// falls, or none of the displacement.
+// Whether two motions can only come nearer to each other by this law: its force is one of the velocity that
+// never falls, or zero.
 bool is_monotone(ForceLaw law, const SmoothValue& value) {
   switch (law) {
     case ForceLaw::exact:

@@ -7,11 +7,12 @@
 namespace frahm::mechanics {
 
 bool has_smooth_law(const Element& element);
+bool has_smooth_law(const Network& network);
+
 // Whether the force is one of the displacement, not of the velocity.
 bool is_of_displacement(ForceLaw law);
 // Whether the response may be one of several under it: it is not monotone, or its numbers decide.
 bool may_have_several_responses(ForceLaw law);
-bool has_smooth_law(const Network& network);
 
 // The numbers of the element's smooth law; zero where it has none.
 const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element);

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "solvers/mechanics/smooth_laws.hpp"
+
 namespace frahm::smooth {
 
 // d/dv F (2/pi) arctan(slope v) = F (2/pi) slope / (1 + (slope v)^2)
@@ -32,7 +34,7 @@ SmoothForce::Law SmoothForce::law_of(const mechanics::Element& element, const me
 }
 
 SmoothForce::SmoothForce(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit)
-    : law_(law_of(element, value, limit)) {}
+    : law_(law_of(element, value, limit)), is_of_velocity_(!mechanics::is_of_displacement(element.law)) {}
 
 // cubic u^3 = u / compliance; the end of a curve.
 double SmoothForce::bent_displacement(double omega, double compliance) const {

@@ -31,7 +31,7 @@ class SmoothForce {
   ForceAndSlope at(double x) const {
     return std::visit([x](const auto& law) { return law.at(x); }, law_);
   }
-  bool is_of_velocity() const { return !std::holds_alternative<Cubic>(law_); }
+  bool is_of_velocity() const { return is_of_velocity_; }
   // The displacement [m] of a motion of this frequency [rad/s] at which the force bends, where the system
   // yields by `compliance` [m/N] across the element; 0 where there is no such place.
   double bent_displacement(double omega, double compliance) const;
@@ -41,6 +41,7 @@ class SmoothForce {
   static Law law_of(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit);
 
   Law law_;
+  bool is_of_velocity_;
 };
 
 }  // namespace frahm::smooth

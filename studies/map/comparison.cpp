@@ -72,9 +72,10 @@ StudyValues compared_values(const Study& study) {
   StudyValues values = study.values;
   if (comparison.show || comparison.taylor_order > 0 || comparison.law == ForceLaw::exact) return values;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
-    const auto keys = mechanics::kind_of(study.network.elements[e]).values();
+    const mechanics::ElementKind& kind = mechanics::kind_of(study.network.elements[e]);
+    const auto keys = kind.values();
     for (std::size_t i = 0; i < keys.size(); ++i)
-      if (keys[i]->exists() && keys[i]->law == comparison.law) values.elements[i][e] = comparison.slope;
+      if (kind.can_be_smoothed() && keys[i] == &kind.slope) values.elements[i][e] = comparison.slope;
   }
   return values;
 }

@@ -10,6 +10,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/samples/scatter.hpp"
 #include "studies/map/statistics_group.hpp"
@@ -132,7 +133,8 @@ class TornadoMaking {
 std::vector<periodic::Quantity> tornado_quantities(const MapPlan& plan) {
   std::vector<periodic::Quantity> quantities;
   if (!plan.study.sweep()) return quantities;
-  if (plan.study.values.has_smooth_laws() || plan.study.sweep()->orbits.is_slow_sweep()) return quantities;
+  if (mechanics::has_smooth_law(plan.study.network) || plan.study.sweep()->orbits.is_slow_sweep())
+    return quantities;
   for (const periodic::Quantity& quantity : plan.quantities) {
     const auto described = periodic::describe(quantity, plan.study.network, plan.study.dimensionless);
     if (periodic::is_differentiable(quantity.measure) && has_statistics(described))

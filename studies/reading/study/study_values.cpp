@@ -38,7 +38,7 @@ template <class Number, class Part>
 void fill_smooth(const StudyValues& values, std::span<const Number> parameters, Part part,
                  mechanics::NetworkValues& out) {
   const auto at = [&](const StudyValue& value) { return part(value.expression.evaluate(parameters)); };
-  out.smooth.assign(values.characteristic.size(), {});
+  out.smooth.assign(values.elements[0].size(), {});
   for (std::size_t e = 0; e < out.smooth.size(); ++e) {
     for (std::size_t i = 0; i < mechanics::smooth_numbers.size(); ++i)
       out.smooth[e].*mechanics::smooth_numbers[i] =

@@ -17,7 +17,7 @@ namespace {
 using mechanics::ElementKind;
 using mechanics::ForceLaw;
 
-static_assert(std::size(words::friction_laws) == static_cast<std::size_t>(ForceLaw::stribeck) + 1,
+static_assert(std::size(words::friction_laws) == static_cast<std::size_t>(ForceLaw::cubic),
               "a word for each law");
 
 const char* name_of(ForceLaw law) {
