@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "studies/provenance/digest.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 
 namespace frahm::studies {
@@ -26,10 +26,7 @@ class CanonicalText {
     text_ += '\n';
   }
 
-  std::string hash() const {
-    const XXH128_hash_t hash = XXH3_128bits(text_.data(), text_.size());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-  }
+  std::string hash() const { return digest(std::as_bytes(std::span(text_))); }
 
  private:
   std::string text_;
@@ -72,13 +69,6 @@ std::string direction_text(const mechanics::Element& element) {
   std::string text = fmt::format("along rotational {} twists {}", element.rotational, element.twists_ground);
   for (const auto& [node, factor] : element.along) text += fmt::format(" {} {}", node_text(node), factor);
   return text;
-}
-
-// For the numbers of a matrix.
-std::string digest(const Eigen::MatrixXd& matrix) {
-  const XXH128_hash_t hash =
-      XXH3_128bits(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 void add_network(const Study& study, CanonicalText& text) {
@@ -152,16 +142,12 @@ void add_motion(const Study& study, CanonicalText& text) {
 // The samples of records, wherever they come from.
 void add_driving_records(const Study& study, CanonicalText& text) {
   if (!study.transient() && !(study.tune() && study.tune()->peaks)) return;
-  const auto digest_of = [](const std::vector<double>& numbers) {
-    return digest(
-        Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
-  };
   for (const DrivingRecord& driving :
        study.transient() ? study.transient()->records : study.tune()->peaks->driving) {
     for (const transient::Record& record : driving.records)
       text.line("record {} of {} on axis {} time {} values {}{}", driving.excitation,
-                static_cast<int>(record.of), driving.on_axis, digest_of(record.time),
-                digest_of(record.values), record.jumps() ? " linear" : "");
+                static_cast<int>(record.of), driving.on_axis, digest(record.time), digest(record.values),
+                record.jumps() ? " linear" : "");
   }
 }
 

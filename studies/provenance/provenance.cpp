@@ -11,6 +11,7 @@
 
 #include "solvers/mechanics/bends.hpp"
 #include "studies/provenance/build_facts.hpp"
+#include "studies/provenance/files_read.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance_checksum.hpp"
 
@@ -107,6 +108,8 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunFacts& run
                                    {"ranks", fmt::format("{}", run.ranks)},
                                    {"started", run.started},
                                    {"finished", utc_now()}};
+  if (const std::string files = files_read(plan.study); !files.empty())
+    texts.emplace_back(files_read_text, files);
   if (const std::string searched = searched_orbits(plan.study); !searched.empty())
     texts.emplace_back("orbits_searched", searched);
   if (plan.grown_from) {

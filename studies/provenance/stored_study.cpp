@@ -1,5 +1,6 @@
 #include "studies/provenance/stored_study.hpp"
 
+#include "studies/provenance/files_read.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance_checksum.hpp"
 #include "studies/reading/parse_study.hpp"
@@ -14,9 +15,11 @@ StoredStudy read_stored_study(const results::MapReader& result, const std::files
   stored.study =
       parse_study(provenance_text(result, "study"), file.parent_path() / study_file, DataFiles::leave);
   const std::string overrides = provenance_text(result, "overrides");
-  if (overrides.empty()) return stored;
-  stored.overrides = parse_assignments(stored.study, "--set", overrides);
-  stored.study = with_parameters(std::move(stored.study), stored.overrides);
+  if (!overrides.empty()) {
+    stored.overrides = parse_assignments(stored.study, "--set", overrides);
+    stored.study = with_parameters(std::move(stored.study), stored.overrides);
+  }
+  refuse_changed_files(stored.study, provenance_text(result, files_read_text), file.string());
   return stored;
 }
 

@@ -15,7 +15,8 @@ struct StoredStudy {
 };
 
 // Reads the text in the result. The study's tables are searched next to the result; measurements are not
-// read. file: of `result`.  Throws StudyError, results::StoreError.
+// read. file: of `result`.  Throws StudyError, also where a table or matrix has other numbers than in the
+// run; results::StoreError.
 StoredStudy read_stored_study(const results::MapReader& result, const std::filesystem::path& file);
 
 }  // namespace frahm::studies

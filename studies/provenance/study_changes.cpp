@@ -104,8 +104,8 @@ std::vector<std::string> changes_since(const results::MapReader& result, const s
   try {
     for (std::string& change : changes_between(read_stored_study(result, file).study, now.study))
       changes.push_back(std::move(change));
-  } catch (const StudyError&) {  // its tables may be gone, or it was written by another version
-    return changes;
+  } catch (const StudyError& error) {  // its tables are gone or changed, or another version wrote it
+    changes.emplace_back(error.what());
   }
   if (changes.empty()) changes.emplace_back(nothing_found);
   return changes;

@@ -280,5 +280,42 @@ TEST_CASE("the title of a motion is written into its file") {
   for (std::size_t i = 0; i < columns.size(); ++i) check_numbers(columns[i].values, before[i].values);
 }
 
+// A result is read with the files that its study read; other numbers in them are another system.
+TEST_CASE("a table or matrix whose numbers changed after a run is refused where its result is read again") {
+  const Folder folder;
+  const std::string matrix = "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 ";
+  folder.write("c.csv", "t,c\n0,1\n10,3\n");
+  folder.write("m.mtx", matrix + "2\n");
+  folder.write("k.mtx", matrix + "50\n");
+  const std::string study =
+      folder.write("decay.toml",
+                   "[study]\nschema = 1\nkind = \"decay\"\nunits = \"dimensionless\"\n"
+                   "[parameters]\nt = 5\nc = { table = \"c.csv\", of = \"t\" }\n"
+                   "[[matrices]]\nname = \"part\"\nnames = [\"main\"]\n"
+                   "mass = \"m.mtx\"\nstiffness = \"k.mtx\"\n"
+                   "[[element]]\nname = \"damper\"\ntype = \"damper\"\n"
+                   "between = [\"ground\", \"main\"]\ndamping = \"c\"\n"
+                   "[decay]\nduration = 3\n[[initial]]\nnode = \"main\"\ndisplacement = 1\n");
+  const std::string file = folder / "decay.h5";
+  REQUIRE(run(study, file).code == 0);
+  const auto read_again = [&] {
+    return runs::frahm({"export", file, "--data", folder / "data.csv", "--rate", "10"});
+  };
+  CHECK(read_again().code == 0);
+  const auto check_refused = [&](const std::string& what) {
+    const Outcome read = read_again(), again = run(study, file);
+    CHECK(read.code == 2);
+    CHECK_THAT(read.err, Catch::Contains(what + " has other numbers than when this result was made"));
+    CHECK(again.code == 5);
+    CHECK_THAT(again.err, Catch::Contains(what));
+  };
+  folder.write("c.csv", "t,c\n0,1\n10,3.5\n");
+  check_refused("parameter \"c\": the table c.csv");
+  folder.write("c.csv", "# the same numbers\nt,c\n0.0,1.0\n10.0,3.0\n");
+  CHECK(read_again().code == 0);
+  folder.write("k.mtx", matrix + "51\n");
+  check_refused("matrices \"part\": a file");
+}
+
 }  // namespace
 }  // namespace identity_test

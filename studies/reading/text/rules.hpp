@@ -94,6 +94,7 @@ inline constexpr Rule unfit_for_method{"unfit_for_method"};
 // Data and earlier results.
 inline constexpr Rule unreadable_file{"unreadable_file"};
 inline constexpr Rule wrong_file{"wrong_file"};  // of another kind than needed
+inline constexpr Rule changed_data{"changed_data"};  // since a result was made of it
 inline constexpr Rule no_header{"no_header"};
 inline constexpr Rule unknown_column{"unknown_column"};
 inline constexpr Rule wrong_row{"wrong_row"};
