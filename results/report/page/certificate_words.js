@@ -6,16 +6,19 @@ const roundingGap = 1e-12; // relative
 
 // The gap between the worst peak and the bound that the tuning found; no sentence if there is no gap, as where no
 // design meets the limits.
-function gapSentences({ kind, band, group, texts, converged }) {
-  const gap = Math.abs(group.number("certificate_gap"));
-  if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
+function gapSentences({ isAmplitude, isWorst, band, records, group, texts, converged }) {
+  const gap = Math.abs(group.number("certificate_gap")),
+    overRecords = records?.length > 0;
+  if (!isAmplitude || !(band || overRecords) || Number.isNaN(gap)) return [];
   const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
   const claim = texts?.not_proved ? "Among the responses found" : "Certificate";
+  const solved = overRecords
+    ? "the motion under every record was solved to its end"
+    : "all peaks of the band were solved";
+  const result = isWorst ? "worst" : "mean";
   return converged
-    ? [
-        `${claim}: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
-      ]
-    : [`There is no certificate; the worst peak and the bound of the tuning differ by ${near}.`];
+    ? [`${claim}: ${solved}; the ${result} of them and the bound of the tuning agree to ${near}.`]
+    : [`There is no certificate; the ${result} peak and the bound of the tuning differ by ${near}.`];
 }
 
 function conditionSentences({ group, converged }) {
@@ -52,7 +55,9 @@ export function certificateSentences(tuning) {
     starts > 1
       ? [`${startsText(group)}.`]
       : converged
-        ? ["Only one start was made: it is not proved that no better design lies elsewhere within the bounds."]
+        ? [
+            "Only one start was made: it is not proved that no better design lies elsewhere within the bounds.",
+          ]
         : [];
   return [...gapSentences(tuning), ...conditionSentences(tuning), ...elsewhere, ...searchSentences(tuning)];
 }

@@ -57,8 +57,12 @@ function isEndOf(band, at) {
   return Math.abs(at - band[0]) <= near || Math.abs(at - band.at(-1)) <= near;
 }
 
-// The peaks that hold the design are known only if the tuning converged.
-function peaksOf(group, band, scenarios, { converged, objective }) {
+// What an objective is: an amplitude or a mean of squares; the worst of several or their mean.
+const amplitudes = ["minimax", "worst_peak", "mean_peak"];
+const worsts = ["minimax", "worst_peak"];
+
+// The peaks that hold the design are known only if the tuning converged; of a mean all count, and none holds it.
+function peaksOf(group, band, { scenarios, records }, { isWorst, objective }) {
   const values = group.values("peak_value") ?? [];
   return Array.from(values, (value, i) => {
     const share = group.values("peak_multiplier")[i],
@@ -68,10 +72,12 @@ function peaksOf(group, band, scenarios, { converged, objective }) {
       atEnd: isEndOf(group.values(band), at),
       value,
       share,
-      active: share > 0,
+      before: group.values("peak_before")?.[i] ?? NaN,
+      active: isWorst && share > 0,
       asHigh: Math.abs(value - objective) <= sameHeight * Math.abs(objective),
       number: i,
       scenario: scenarios[group.values("peak_scenario")[i]] ?? "",
+      record: records[group.values("peak_record")?.[i]] ?? "",
     };
   });
 }
@@ -192,6 +198,17 @@ export function settlingRounds({ group, kind, parameters, objective }) {
   return decisive < 0 ? 0 : bounds.length - 1 - decisive;
 }
 
+// Of a tuning over records the file has the peaks before; a quantile of them is not made here.
+function worstOf(group, peaks, { isWorst, texts, objective }) {
+  const worst = Object.fromEntries(
+    Object.keys(designNames).map((design) => [design, group.number(`worst_${design}`)]),
+  );
+  const before = peaks.map((peak) => peak.before).filter(Number.isFinite);
+  if (before.length === 0 || before.length < peaks.length || texts.quantile) return worst;
+  const mean = before.reduce((sum, value) => sum + value, 0) / before.length;
+  return { ...worst, before: isWorst ? Math.max(...before) : mean, after: objective };
+}
+
 // The excitation of each scenario, where these differ in it.
 function excitationsOf(study, scenarios) {
   return scenarios
@@ -211,33 +228,40 @@ export function tuningOf(record) {
     ? scenarios.map((scenario) => ({ scenario, suffix: `_${scenario}` }))
     : [{ scenario: "", suffix: "" }];
   const unit = group.column("objective")?.unit ?? "1";
+  const kind = texts.objective_kind,
+    isWorst = worsts.includes(kind),
+    isAmplitude = amplitudes.includes(kind);
   const outcome = group.word("outcome"),
-    state = { converged: outcome === "converged", objective };
+    state = { converged: outcome === "converged", objective, isWorst };
+  const records = listOf(texts.records),
+    peaks = peaksOf(group, band, { scenarios: several ? scenarios : [], records }, state);
   return {
     group,
     texts,
     ...state,
     outcome,
-    kind: texts.objective_kind,
+    kind,
+    isAmplitude,
+    isWorst,
     quantity: texts.quantity,
     unit,
-    root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
+    root: isAmplitude ? unit : rootUnit(unit),
     reason: texts.reason ?? "",
     excitation: record.groups.get("study")?.texts.excitation ?? "",
     excitations: excitationsOf(record.groups.get("study"), scenarios),
     scenarios: several ? scenarios : [],
     parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
-    peaks: peaksOf(group, band, several ? scenarios : [], state),
+    records,
+    peaks,
     limits: limitsOf(
       { group, study: record.groups.get("study"), scenarios: several ? scenarios : [], ...state },
       listOf(texts.limits),
     ),
     band: band && group.has(band) ? group.column(band) : null,
+    place: { name: band, unit: (group.column(band) ?? group.column(`peak_${band}`))?.unit ?? "1" }, // of peaks
     weight: group.values("weight"),
     responses: responsesOf(group, suffixes),
-    worst: Object.fromEntries(
-      Object.keys(designNames).map((design) => [design, group.number(`worst_${design}`)]),
-    ),
+    worst: worstOf(group, peaks, { isWorst, texts, objective }),
     columns: band ? extraColumns(group, band) : [],
     front: record.groups.get("optimum/front"),
   };

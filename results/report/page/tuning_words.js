@@ -70,7 +70,13 @@ function lessText(before, after) {
   return `${change} (${decibel > 0 ? "+" : ""}${numberText(decibel, 3)} dB)`;
 }
 
-const kindWords = { minimax: "worst", mean_square: "root mean square of", variance: "standard deviation of" };
+const kindWords = {
+  minimax: "worst",
+  worst_peak: "worst",
+  mean_peak: "mean",
+  mean_square: "root mean square of",
+  variance: "standard deviation of",
+};
 
 function spoken(tuning) {
   const weighted = tuning.weight ? "weighted " : "";
@@ -79,11 +85,11 @@ function spoken(tuning) {
 
 // The objective as an amplitude: itself, or the root of a mean square or variance.
 function amplitude(tuning, objective) {
-  return tuning.kind === "minimax" ? objective : Math.sqrt(objective);
+  return tuning.isAmplitude ? objective : Math.sqrt(objective);
 }
 
 function placeText(tuning, value) {
-  return quantityText(value, tuning.band.unit, digits);
+  return quantityText(value, tuning.place.unit, digits);
 }
 
 function bandText(tuning) {
@@ -95,17 +101,19 @@ function bandText(tuning) {
   );
 }
 
-function scenarioText({ scenarios, kind, texts }) {
-  if (scenarios.length < 2) return "";
-  if (texts.samples) {
+function scenarioText({ scenarios, records, isWorst, texts }) {
+  const over = [
+    ...(records.length > 1 ? [`${records.length} records`] : []),
+    ...(scenarios.length > 1 ? [`${scenarios.length} scenarios`] : []),
+  ].join(" and ");
+  if (over === "") return "";
+  if (texts.samples && scenarios.length > 1) {
     const share = Number(texts.quantile ?? 1);
     return share < 1
       ? `, the ${numberText(100 * share, 4)} % quantile of the worst of each of ${scenarios.length} samples`
       : `, over ${scenarios.length} samples`;
   }
-  return kind === "minimax"
-    ? `, in the worst of ${scenarios.length} scenarios`
-    : `, as the mean of ${scenarios.length} scenarios`;
+  return isWorst ? `, in the worst of ${over}` : `, as the mean of ${over}`;
 }
 
 // The conditions of a variance: "relative to base under white noise, ...".
@@ -173,9 +181,9 @@ function holders(tuning) {
   const peaks = tuning.peaks
     .filter(({ active }) => active)
     .map(
-      ({ at, atEnd, share, scenario }) =>
+      ({ at, atEnd, share, scenario, record }) =>
         `the ${atEnd ? "response" : "peak"} at ${placeText(tuning, at)}${atEnd ? ", the end of the band" : ""}` +
-        `${scenario ? ` (${words(scenario)})` : ""}, share ` +
+        `${record || scenario ? ` (${[record, words(scenario)].filter(Boolean).join(", ")})` : ""}, share ` +
         `${percentText(100 * share)}`,
     );
   const bounds = tuning.parameters.flatMap((parameter) =>
@@ -211,7 +219,7 @@ function boundsMet({ parameters }) {
 function brokenSentence(tuning, { name, unit, value, at, scenario, band, lower, upper, excess, brokenEnd }) {
   const text = (number) => quantityText(number, unit, digits);
   const over = band ? ` over ${numberText(band.from, digits)} to ${placeText(tuning, band.to)}` : "";
-  const there = Number.isFinite(at) && tuning.band ? ` at ${placeText(tuning, at)}` : "";
+  const there = Number.isFinite(at) ? ` at ${placeText(tuning, at)}` : "";
   return (
     `It breaks the limit of ${words(name)}, ${brokenEnd} ${text(brokenEnd === "at most" ? upper : lower)}${over}, by ` +
     `${percentText(100 * excess, digits)}: ${text(value)}${there}${scenario ? ` (${words(scenario)})` : ""}.`
@@ -300,7 +308,7 @@ function detuningSentences(tuning) {
   if (worst.growth <= 0) return ["No parameter that is off by 5 % makes it worse."];
   return [
     `One parameter that is off by 5 % makes the ` +
-      `${tuning.kind === "minimax" ? "worst peak" : tuning.kind === "variance" ? "variance" : "mean square"} grow ` +
+      `${tuning.isWorst ? "worst peak" : tuning.kind === "variance" ? "variance" : "mean square"} grow ` +
       `by at most ${percentText(100 * worst.growth)} (${off}).`,
   ];
 }

@@ -177,3 +177,35 @@ test("a tuning with friction lists the excitation of each scenario where these d
   const same = await pageOf("same", ["{ P = 2, mu = 0.05 }", "{ P = 2, mu = 0.06 }"]);
   assert.match(await said(same), /holds for this excitation: force on main, 2\. Friction/);
 });
+
+// The house of tune_slip_force in two short earthquakes, from one start.
+const overRecords = readFileSync(study("tune_slip_force"), "utf8")
+  .replace(/start +=.*/, "")
+  .replace("count = 5", "count = 2")
+  .replace("duration = 20", "duration = 6")
+  .replace("level_end = 10", "level_end = 4")
+  .replace("duration  = 22", "duration  = 7");
+
+for (const [kind, how] of [
+  ["worst_peak", "Worst drift peak, in the worst of 2 records"],
+  ["mean_peak", "Mean drift peak, as the mean of 2 records"],
+]) {
+  test(`the report of a tuning over records: ${kind}`, async (t) => {
+    const folder = folderOf(t),
+      file = join(folder, "tuning.h5");
+    writeFileSync(join(folder, "tuning.toml"), overRecords.replace("worst_peak", kind));
+    frahm(["run", join(folder, "tuning.toml"), "-o", file, "--progress", "none"]);
+    frahm(["report", file]);
+    const { page, complaints } = await open(t, join(folder, "tuning.html"));
+    const said = await page.locator("section", { hasText: "What this means" }).first().textContent();
+    assert.ok(said.includes(how), said);
+    const [, number, prefix] = /records: ([\d.]+) (m|\u00b5)m\./.exec(said);
+    const objective = stored(file, "optimum/objective"),
+      shown = Number(number) * (prefix === "m" ? 1e-3 : 1e-6);
+    assert.ok(Math.abs(shown - objective) < 1e-3 * objective, `${shown} and ${objective}`);
+    const rows = await page.locator("tr", { hasText: "kanai_tajimi" }).count();
+    assert.equal(rows, 2);
+    assert.deepEqual(await badLabels(page), []);
+    assert.deepEqual(complaints, []);
+  });
+}

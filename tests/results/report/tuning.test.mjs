@@ -320,7 +320,10 @@ test("a schedule tells where it is as steep as it may be, and one that dominates
     text,
     /k changes as fast as allowed \(100 N\/m per rad\/s of ω\) at 2 of 3 pieces, which also determines the design\./,
   );
-  assert.match(text, /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which also determines the design\./);
+  assert.match(
+    text,
+    /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which also determines the design\./,
+  );
   assert.doesNotMatch(told(scheduled), /nowhere above/);
   assert.ok(Number.isNaN(steepestPieces(tuningOf(minimax()).parameters[0])));
 });
@@ -408,4 +411,64 @@ test("of several responses the page claims no more than what was found", () => {
   const searched = text({ not_proved: "it is not proved that none was missed" });
   assert.match(searched, /Among the responses found: all peaks/);
   assert.match(searched, /Several responses may exist: it is not proved that none was missed\./);
+});
+
+// Of two records.
+function overRecords(kind, texts = {}) {
+  const [value, share] =
+    kind === "worst_peak"
+      ? [
+          [4e-3, 2e-3],
+          [1, 0],
+        ]
+      : [
+          [5e-3, 3e-3],
+          [0.5, 0.5],
+        ];
+  const optimum = sampleGroup(
+    {
+      objective_kind: kind,
+      quantity: "main_peak",
+      band_parameter: "time",
+      records: "north,south",
+      scenarios: "study",
+      ...texts,
+    },
+    {
+      objective: ["m", "", 4e-3],
+      certificate_gap: ["1", "", 1e-9],
+      kkt_residual: ["1", "", 2e-10],
+      peak_time: ["s", "peak", [3, 4]],
+      peak_record: ["1", "peak", [0, 1]],
+      peak_value: ["m", "peak", value],
+      peak_before: ["m", "peak", [8e-3, 2e-3]],
+      peak_multiplier: ["1", "peak", share],
+      peak_scenario: ["1", "peak", [0, 0]],
+    },
+    { outcome: ["", 1, outcomes] },
+  );
+  return sampleRecord({ optimum });
+}
+
+test("a tuning over records says its worst or mean peak, in its unit, and which record holds it", () => {
+  const worst = whatItMeans(tuningOf(overRecords("worst_peak")))
+    .flat()
+    .join(" ");
+  assert.match(worst, /Worst main peak, in the worst of 2 records: 4 mm\./);
+  assert.match(worst, /Against the design before \(8 mm\): 50 % less \(−6\.02 dB\)/);
+  assert.match(worst, /Certificate: the motion under every record was solved to its end; the worst of them/);
+  assert.match(worst, /held by the peak at 3 s \(north\), share 100 %/);
+  const mean = whatItMeans(tuningOf(overRecords("mean_peak")))
+    .flat()
+    .join(" ");
+  assert.match(mean, /Mean main peak, as the mean of 2 records: 4 mm\./);
+  assert.match(mean, /Against the design before \(5 mm\): 20 % less/);
+  assert.doesNotMatch(mean, /peak at 3 s/);
+});
+
+test("no design before is compared with a quantile", () => {
+  const text = whatItMeans(tuningOf(overRecords("worst_peak", { quantile: "0.9" })))
+    .flat()
+    .join(" ");
+  assert.doesNotMatch(text, /design before/);
 });

@@ -5,7 +5,13 @@ import { words } from "../units.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
 
-const objectiveWords = { minimax: "worst", mean_square: "mean square of", variance: "variance of" };
+const objectiveWords = {
+  minimax: "worst",
+  worst_peak: "worst",
+  mean_peak: "mean",
+  mean_square: "mean square of",
+  variance: "variance of",
+};
 
 export function objectiveLabel(tuning) {
   return (
@@ -19,7 +25,7 @@ function percent(values) {
 }
 
 // Detuning curves, with the optimum itself added at no change.
-export function detuningFigure({ group, parameters, kind }) {
+export function detuningFigure({ group, parameters, isWorst }) {
   const changes = Array.from(group.values("change"));
   const order = [...changes.keys()].sort((a, b) => changes[a] - changes[b]);
   const place = order.findIndex((i) => changes[i] > 0);
@@ -38,7 +44,7 @@ export function detuningFigure({ group, parameters, kind }) {
       y: withOptimum(detuning),
       ...style(i),
     }));
-  const grows = kind === "minimax" ? "worst peak" : "objective";
+  const grows = isWorst ? "worst peak" : "objective";
   return lineFigure({
     name: "detuning",
     title: "The cost of a parameter that is off",
@@ -78,22 +84,25 @@ const roundAxis = (x) => ({ label: "round", unit: "1", ticks: whole(x.length), t
 const dotted = (lines) => lines.map((drawn) => ({ ...drawn, silent: true, text: "" }));
 
 export function roundsFigure(tuning) {
-  const { kind, unit, parameters } = tuning;
+  const { isWorst, unit, parameters, records } = tuning;
   const { x, bound, worst } = pressingRounds(tuning);
+  const [cases, everywhere] = records.length
+    ? ["instants", "all of each record"]
+    : ["frequencies", "the whole band"];
   const lines = [
     {
       name: "round_bound",
-      text: kind === "minimax" ? "bound: over the active frequencies" : "objective",
+      text: isWorst ? `bound: over the active ${cases}` : "objective",
       x,
       y: bound,
       ...style(0),
     },
-    ...(kind === "minimax"
-      ? [{ name: "round_worst", text: "worst: over the whole band", x, y: worst, ...style(1) }]
+    ...(isWorst
+      ? [{ name: "round_worst", text: `worst: over ${everywhere}`, x, y: worst, ...style(1) }]
       : []),
   ];
-  const adds = "Each round adds the peaks found to the active frequencies, until bound and worst peak meet.";
-  const exchange = kind === "minimax" ? adds : "";
+  const adds = `Each round adds the peaks found to the active ${cases}, until bound and worst peak meet.`;
+  const exchange = isWorst ? adds : "";
   const constants = parameters.some(({ scheduled }) => scheduled)
     ? " The best constants come first, then the schedule."
     : "";

@@ -37,7 +37,7 @@ function placeWords(prefix, chosen) {
     .join(" ");
 }
 
-function peakPoints({ peaks, kind, converged }) {
+function peakPoints({ peaks, isWorst, converged }) {
   const of = (chosen) => ({ x: chosen.map(({ at }) => at), y: chosen.map(({ value }) => value) });
   const points = (name, prefix, symbol, chosen) => ({
     name,
@@ -56,16 +56,16 @@ function peakPoints({ peaks, kind, converged }) {
     ),
     points(
       "other_peak",
-      kind === "minimax" && converged ? "other" : "",
+      isWorst && converged ? "other" : "",
       "open",
       peaks.filter(({ active }) => !active),
     ),
   ].filter(({ x }) => x.length > 0);
 }
 
-function peaksText({ peaks, kind, converged }) {
+function peaksText({ peaks, isWorst, converged }) {
   if (peaks.length === 0) return "";
-  return kind === "minimax" && converged
+  return isWorst && converged
     ? "Peaks are solved, not sampled; those that hold the optimum are filled."
     : "Peaks are solved, not sampled.";
 }
@@ -75,11 +75,11 @@ function weightText({ weight }) {
 }
 
 export function responseFigure(tuning) {
-  const { band, responses, root, unit, kind, worst } = tuning;
+  const { band, responses, root, isWorst, worst } = tuning;
   const lines = [...responses]
     .sort((a, b) => drawnFirst.indexOf(a.design) - drawnFirst.indexOf(b.design))
     .map((response) => responseLine(tuning, response));
-  const worstPeak = kind === "minimax" && Number.isFinite(worst.after);
+  const worstPeak = isWorst && Number.isFinite(worst.after);
   return lineFigure({
     name: "tuned_response",
     title: `Response over the band: ${responseWords(tuning)}`,
@@ -88,7 +88,7 @@ export function responseFigure(tuning) {
     x: { ...axisOf(band), tight: true },
     y: {
       label: responseWords(tuning),
-      unit: kind === "minimax" ? unit : root,
+      unit: root,
       zero: true,
     },
     lines,

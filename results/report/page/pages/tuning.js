@@ -131,25 +131,32 @@ function shareText({ converged }, { active, asHigh, share }) {
 }
 
 function peaksTable(tuning) {
-  const { peaks, parameters, band, root, scenarios, kind } = tuning;
+  const { parameters, place, root, scenarios, records, isWorst: held } = tuning;
+  const drawn = tuning.texts.samples && records.length; // many motions: those that hold the design
+  const peaks = tuning.peaks.filter(({ active }) => active || !drawn);
   if (peaks.length === 0) return [];
   const several = scenarios.length > 1,
-    held = kind === "minimax";
+    before = peaks.some((peak) => Number.isFinite(peak.before));
   const head = [
-    withUnit(symbolText(band.name), unitText(band.unit)),
+    withUnit(symbolText(place.name), unitText(place.unit)),
+    ...(records.length ? ["record"] : []),
     ...(several ? ["scenario"] : []),
     responseWords(tuning),
+    ...(before ? ["before"] : []),
     ...(held ? ["share in what holds it"] : []),
     ...parameters.map(({ name, unit: of }) => `by ${symbolText(name)}: per ${unitText(of) || "unit"}`),
   ];
   const rows = peaks.map((peak) => [
     `${numberText(peak.at)}${peak.atEnd ? " (end)" : ""}`,
+    ...(records.length ? [peak.record] : []),
     ...(several ? [words(peak.scenario)] : []),
     quantityText(peak.value, root),
+    ...(before ? [quantityText(peak.before, root)] : []),
     ...(held ? [shareText(tuning, peak)] : []),
     ...parameters.map(({ sensitivity }) => quantityText(sensitivity[peak.number] ?? NaN, root, 4)),
   ]);
-  const numeric = head.map((_, i) => i).filter((i) => !(several && i === 1));
+  const texts = ["record", "scenario"];
+  const numeric = head.map((_, i) => i).filter((i) => !texts.includes(head[i]));
   return [
     note(
       `Peaks of the design${peaks.some(({ atEnd }) => atEnd) ? ", with the ends of the band to which the response rises (end)" : ""}, ` +
@@ -214,12 +221,12 @@ function startsText({ group, texts }) {
 }
 
 function factsTable(tuning) {
-  const { group, texts, kind } = tuning;
+  const { group, texts, isAmplitude } = tuning;
   const count = (name) => (group.number(name) > 0 ? numberText(group.number(name), 12) : "");
   const proof = (name) => numberText(group.number(name), 3);
   const rows = [
     [objectiveLabel(tuning), quantityText(tuning.objective, tuning.unit, 8)],
-    ...(kind === "minimax"
+    ...(isAmplitude
       ? [["certificate gap", proof("certificate_gap")]]
       : [["its root", quantityText(Math.sqrt(tuning.objective), tuning.root, 8)]]),
     ...(Number.isFinite(group.number("path_bound"))
@@ -284,24 +291,24 @@ function roundsCaption(tuning) {
 }
 
 function roundsTable(tuning) {
-  const { group, unit, kind } = tuning;
+  const { group, unit, isWorst, records } = tuning;
   const active = group.values("round_active");
   if (!active) return null;
   const of = (name, i) => group.values(name)[i];
   const rows = Array.from(active, (count, i) => [
     String(i + 1),
-    ...(kind === "minimax" ? [String(count)] : []),
+    ...(isWorst ? [String(count)] : []),
     String(of("round_iterations", i)),
     quantityText(of("round_bound", i), unit),
-    ...(kind === "minimax" ? [quantityText(of("round_worst", i), unit)] : []),
+    ...(isWorst ? [quantityText(of("round_worst", i), unit)] : []),
     numberText(of("round_violation", i), 3),
   ]);
   const head = [
     "round",
-    ...(kind === "minimax" ? ["active frequencies"] : []),
+    ...(isWorst ? [`active ${records.length ? "instants" : "frequencies"}`] : []),
     "iterations",
     "bound",
-    ...(kind === "minimax" ? ["worst"] : []),
+    ...(isWorst ? ["worst"] : []),
     "violation",
   ];
   return table(head, rows, { numeric: head.map((_, i) => i), caption: roundsCaption(tuning) });
@@ -355,12 +362,10 @@ function detuningFigures(tuning) {
 }
 
 function progressFigures(tuning) {
-  const { group, kind } = tuning;
+  const { group, isWorst } = tuning;
   const several = (name) => (group.values(name)?.length ?? 0) > 1;
   return [
-    ...(several("round_bound")
-      ? [roundsFigure(tuning), ...(kind === "minimax" ? [gapFigure(tuning)] : [])]
-      : []),
+    ...(several("round_bound") ? [roundsFigure(tuning), ...(isWorst ? [gapFigure(tuning)] : [])] : []),
     ...(several("start_objective") ? [startsFigure(tuning)] : []),
   ];
 }
