@@ -32,31 +32,14 @@ void check_is_hdf5(const std::filesystem::path& path) {
     throw engine::IoError(path, "is not an HDF5 file; --from needs the result of a map");
 }
 
-std::string_view words_of(ResultKind kind) {
-  switch (kind) {
-    case ResultKind::map:
-      return "a map";
-    case ResultKind::branch:
-      return "a branch";
-    case ResultKind::tuning:
-      return "a tuning";
-    case ResultKind::identification:
-      return "an identification";
-    case ResultKind::motion:
-      break;
-  }
-  return "one motion";
-}
-
 }  // namespace
 
 results::MapReader open_earlier_map(const std::filesystem::path& file) {
   check_is_hdf5(file);
   results::MapReader result(file);
-  const ResultKind kind = kind_of(result);
-  if (kind == ResultKind::map) return result;
+  if (kind_of(result) == ResultKind::map) return result;
   throw StudyError(rules::wrong_option, "--from {}: is {}, not a map: there is no point to reuse",
-                   file.string(), words_of(kind));
+                   file.string(), noun_of(result));
 }
 
 }  // namespace frahm::studies

@@ -50,12 +50,13 @@ void require_result(const std::filesystem::path& path) {
 struct OwnGroup {
   const char* group;
   ResultKind kind;
+  const char* noun;
 };
-static constexpr OwnGroup own_groups[] = {{"branches", ResultKind::branch},
-                                          {"optimum", ResultKind::tuning},
-                                          {"identification", ResultKind::identification},
-                                          {"decay", ResultKind::motion},
-                                          {"transient", ResultKind::motion}};
+static constexpr OwnGroup own_groups[] = {{"branches", ResultKind::branch, "a branch"},
+                                          {"optimum", ResultKind::tuning, "a tuning"},
+                                          {"identification", ResultKind::identification, "an identification"},
+                                          {"decay", ResultKind::motion, "one motion"},
+                                          {"transient", ResultKind::motion, "one motion"}};
 
 static const OwnGroup* find_own_group(const results::MapReader& result) {
   if (!result.layout().axes.empty()) return nullptr;
@@ -68,6 +69,12 @@ ResultKind kind_of(const results::MapReader& result) {
   if (!result.layout().axes.empty()) return ResultKind::map;
   const OwnGroup* const own = find_own_group(result);
   return own ? own->kind : ResultKind::motion;
+}
+
+std::string noun_of(const results::MapReader& result) {
+  if (!result.layout().axes.empty()) return "a map";
+  const OwnGroup* const own = find_own_group(result);
+  return own ? own->noun : "one motion";
 }
 
 std::string own_group(const results::MapReader& result) {

@@ -15,6 +15,7 @@ engine::Fingerprint fingerprint_of(const results::MapReader& map);
 // What a result holds: told by its axes and groups (FORMAT.md).
 enum class ResultKind { map, branch, tuning, identification, motion };
 ResultKind kind_of(const results::MapReader& result);
+std::string noun_of(const results::MapReader& result);  // "a tuning"
 
 // The group that holds a result that is no map: "decay", "optimum"; "" of a map.
 std::string own_group(const results::MapReader& result);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "studies/provenance/fingerprint.hpp"
 #include "studies/reading/study/assignment.hpp"
 

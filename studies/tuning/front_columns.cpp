@@ -21,27 +21,28 @@ std::vector<results::Column> front_columns(const Study& study, const TuningResul
   if (!study.tune()->trade_off) return {};
   const TuningAbout about(study, result);
   const TradeOffChoice& trade_off = *study.tune()->trade_off;
-  GroupColumns columns;
-  std::vector<double> limits, objectives, gaps, residuals, violations, starts, dominated;
-  std::vector<tuning::Outcome> outcomes;
   std::vector<const tuning::Optimum*> optima;
+  for (std::size_t i = 0; i < result.limits(); ++i) optima.push_back(&result.optimum(i));
+  const auto of_each = [&](double tuning::Optimum::*number, double factor = 1.0) {
+    std::vector<double> values;
+    for (const tuning::Optimum* optimum : optima) values.push_back(optimum->*number / factor);
+    return values;
+  };
+  std::vector<double> starts, dominated;
+  std::vector<tuning::Outcome> outcomes;
   for (std::size_t i = 0; i < result.limits(); ++i) {
-    const tuning::Optimum& optimum = result.optimum(i);
-    optima.push_back(&optimum);
-    limits.push_back(optimum.trade_off / trade_off.unit.si_factor);
-    objectives.push_back(optimum.objective);
-    gaps.push_back(optimum.certificate_gap);
-    residuals.push_back(optimum.kkt_residual);
-    violations.push_back(optimum.violation);
-    outcomes.push_back(optimum.outcome);
+    outcomes.push_back(optima[i]->outcome);
     starts.push_back(static_cast<double>(result.starts[result.best[i]].number));
     dominated.push_back(is_dominated(result, i) ? 2.0 : 1.0);
   }
-  columns.add({"trade_off", {}, {trade_off.name}}, trade_off.unit.text, "trade_off", limits);
-  columns.add("objective", objective_unit(study), "trade_off", objectives);
-  columns.add("certificate_gap", "1", "trade_off", gaps);
-  columns.add("kkt_residual", "1", "trade_off", residuals);
-  columns.add("violation", "1", "trade_off", violations);
+  GroupColumns columns;
+  using tuning::Optimum;
+  columns.add({"trade_off", {}, {trade_off.name}}, trade_off.unit.text, "trade_off",
+              of_each(&Optimum::trade_off, trade_off.unit.si_factor));
+  columns.add("objective", objective_unit(study), "trade_off", of_each(&Optimum::objective));
+  columns.add("certificate_gap", "1", "trade_off", of_each(&Optimum::certificate_gap));
+  columns.add("kkt_residual", "1", "trade_off", of_each(&Optimum::kkt_residual));
+  columns.add("violation", "1", "trade_off", of_each(&Optimum::violation));
   columns.add_flag("outcome", "trade_off", outcome_words(), outcome_flags(outcomes));
   columns.add_count("best_start", "trade_off", starts);
   columns.add_flag("dominated", "trade_off", {"no", "yes"}, dominated);

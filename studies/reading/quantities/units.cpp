@@ -19,10 +19,11 @@ constexpr std::size_t longest_unit = 64;  // characters; no sensible unit is lon
 struct QuantityEntry {
   std::string_view name, si_unit, written_si_unit, examples;
   std::array<int, 3> exponents;  // of metre, kilogram, second
+  int radians = 0;               // of the radian, which a unit may leave out
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 23> quantities{{
+constexpr auto quantities = std::to_array<QuantityEntry>({
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -30,23 +31,23 @@ constexpr std::array<QuantityEntry, 23> quantities{{
     {"a force", "N", "N", "N, mN or kN", {1, 1, -2}},
     {"a stiffness", "N m-1", "N/m", "N/m, kN/m or N/mm", {0, 1, -2}},
     {"a damping", "N s m-1", "N s/m", "N s/m, kN s/m or N s/mm", {0, 1, -1}},
-    {"an angle", "rad", "rad", "rad or degree", {0, 0, 0}},
-    {"an angular frequency", "rad s-1", "rad/s", "rad/s, rpm or Hz", {0, 0, -1}},
+    {"an angle", "rad", "rad", "rad or degree", {0, 0, 0}, 1},
+    {"an angular frequency", "rad s-1", "rad/s", "rad/s, rpm or Hz", {0, 0, -1}, 1},
     {"a speed", "m s-1", "m/s", "m/s or mm/s", {1, 0, -1}},
     {"a time", "s", "s", "s, ms or min", {0, 0, 1}},
     {"an inverse speed", "s m-1", "s/m", "s/m or s/mm", {-1, 0, 1}},
-    {"an angular acceleration", "rad s-2", "rad/s2", "rad/s2, rpm/s or Hz/s", {0, 0, -2}},
+    {"an angular acceleration", "rad s-2", "rad/s2", "rad/s2, rpm/s or Hz/s", {0, 0, -2}, 1},
     {"an acceleration", "m s-2", "m/s2", "m/s2, mm/s2 or gravity", {1, 0, -2}},
     {"an energy", "J", "J", "J, mJ or N m", {2, 1, -2}},
     {"a moment of inertia", "kg m2", "kg m2", "kg m2 or g cm2", {2, 1, 0}},
     {"a torque", "N m", "N m", "N m, N mm or kN m", {2, 1, -2}},
-    {"a torsional stiffness", "N m rad-1", "N m/rad", "N m/rad, N m or N m/degree", {2, 1, -2}},
-    {"a torsional damping", "N m s rad-1", "N m s/rad", "N m s/rad or N m s", {2, 1, -1}},
-    {"an inverse angular speed", "s rad-1", "s/rad", "s/rad or s", {0, 0, 1}},
+    {"a torsional stiffness", "N m rad-1", "N m/rad", "N m/rad, N m or N m/degree", {2, 1, -2}, -1},
+    {"a torsional damping", "N m s rad-1", "N m s/rad", "N m s/rad or N m s", {2, 1, -1}, -1},
+    {"an inverse angular speed", "s rad-1", "s/rad", "s/rad or s", {0, 0, 1}, -1},
     {"a rate", "s-1", "1/s", "1/s or 1/min", {0, 0, -1}},
     {"a cubic stiffness", "N m-3", "N/m3", "N/m3, kN/m3 or N/mm3", {-2, 1, -2}},
-    {"a torsional cubic stiffness", "N m rad-3", "N m/rad3", "N m/rad3 or N m", {2, 1, -2}},
-}};
+    {"a torsional cubic stiffness", "N m rad-3", "N m/rad3", "N m/rad3 or N m", {2, 1, -2}, -3},
+});
 
 const QuantityEntry& entry(Quantity quantity) {
   return quantities[static_cast<std::size_t>(quantity)];
@@ -54,14 +55,7 @@ const QuantityEntry& entry(Quantity quantity) {
 
 bool has_dimension(const Unit& unit, Quantity quantity) {
   if (unit.foreign || unit.exponents != entry(quantity).exponents) return false;
-  if (quantity == Quantity::angle || quantity == Quantity::angular_frequency ||
-      quantity == Quantity::angular_acceleration) {
-    return unit.radians == 0 || unit.radians == 1;
-  }
-  const bool by_angle = quantity == Quantity::torsional_stiffness ||
-                        quantity == Quantity::torsional_damping || quantity == Quantity::inverse_rate;
-  const bool by_cube = quantity == Quantity::torsional_cubic_stiffness;
-  return unit.radians == 0 || (by_angle && unit.radians == -1) || (by_cube && unit.radians == -3);
+  return unit.radians == 0 || unit.radians == entry(quantity).radians;
 }
 
 // A unit as the visitor of UDUNITS reads it; proportional = false for temperatures, logarithms and dates.

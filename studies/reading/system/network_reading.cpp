@@ -179,29 +179,10 @@ std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSecti
   return read_value(reading, section, key, quantity);
 }
 
-namespace {
-
-// Whether a kind of study is about driven systems; an identification is where its study drives one.
-bool takes_excitation(StudyKind kind, bool is_given) {
-  switch (kind) {
-    case StudyKind::decay:
-      return false;
-    case StudyKind::identify:
-      return is_given;
-    case StudyKind::sweep:
-    case StudyKind::transient:
-    case StudyKind::tune:
-      break;
-  }
-  return true;
-}
-
-}  // namespace
-
 NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
                             const std::filesystem::path& folder, Parameters& parameters, StudyKind kind) {
   const TomlEntry* excitation = find_entry(root, "excitation");
-  const bool is_forced = takes_excitation(kind, excitation != nullptr);
+  const bool is_forced = excitation != nullptr;  // the table of keys says which kinds need or have one
   NetworkReading reading(context, parameters);
   if (find_entry(root, "damping")) keep_name_of_damping(reading);
   std::size_t number = 0;
