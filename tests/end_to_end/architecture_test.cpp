@@ -139,7 +139,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
         "studies/motion/measurements.cpp"}},
       {"Ip.*", {"solvers/tuning/problem/ipopt.cpp"}},
       {"nlopt", {"solvers/tuning/problem/nlopt.cpp"}},
-      {"xxhash", {"studies/provenance/fingerprint.cpp"}},
+      {"xxhash", {"studies/provenance/digest.cpp"}},
       {"nlohmann",
        {"studies/program/point_json.cpp", "studies/program/schema_command.cpp",
         "results/report/page_data.cpp"}},

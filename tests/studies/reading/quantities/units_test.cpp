@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace units_test {
 namespace {
@@ -81,6 +82,18 @@ TEST_CASE("every quantity's own SI unit has the factor 1") {
   for (int i = 0; i <= static_cast<int>(Quantity::angular_frequency); ++i) {
     const auto quantity = static_cast<Quantity>(i);
     check_si(std::string(si_unit(quantity)), quantity, 1.0);
+  }
+}
+
+TEST_CASE("a quantity has its own power of the radian or none, and no other") {
+  for (int i = 0; i <= static_cast<int>(Quantity::torsional_cubic_stiffness); ++i) {
+    const auto quantity = static_cast<Quantity>(i);
+    const std::string own(frahm::studies::si_unit(quantity));
+    const int radians = UnitSystem().parse(own).radians;
+    for (const auto& [text, by] : {std::pair{" rad", 1}, std::pair{" rad-1", -1}}) {
+      INFO(own << text);
+      CHECK((complaint_about(own + text, quantity) == "none") == (radians + by == 0));
+    }
   }
 }
 
