@@ -61,7 +61,7 @@ function isEndOf(band, at) {
 const amplitudes = ["minimax", "worst_peak", "mean_peak"];
 const worsts = ["minimax", "worst_peak"];
 
-// The peaks that hold the design are known only if the tuning converged; of a mean all count, and none holds it.
+// The peaks that hold the design are known only if the tuning converged; of a mean every peak counts, so none holds it.
 function peaksOf(group, band, { scenarios, records }, { isWorst, objective }) {
   const values = group.values("peak_value") ?? [];
   return Array.from(values, (value, i) => {
@@ -242,7 +242,6 @@ export function tuningOf(record) {
     outcome,
     kind,
     isAmplitude,
-    isWorst,
     quantity: texts.quantity,
     unit,
     root: isAmplitude ? unit : rootUnit(unit),
