@@ -217,8 +217,10 @@ std::string owners_text(const KeyOwners& owners) {
 std::string default_text(const StudyKey& key) {
   if (!key.by_default) return "";
   const double number = *key.by_default;
-  return key.form == KeyForm::boolean ? fmt::format("; default {}", number != 0.0)
-                                      : fmt::format("; default {}", number);
+  if (key.form == KeyForm::boolean) return fmt::format("; default {}", number != 0.0);
+  if (key.form == KeyForm::choice)
+    return fmt::format("; default {}", key.words[static_cast<std::size_t>(number)].word);
+  return fmt::format("; default {}", number);
 }
 
 // What stands in the table of keys.

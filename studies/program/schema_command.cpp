@@ -24,10 +24,6 @@ constexpr const char* name_or_star = R"(^([A-Za-z]([A-Za-z0-9_]|\{[^{}]*\})*|.*\
 
 Json section_schema(const std::string& path);
 
-std::string path_of(const StudyKey& key) {
-  return *key.section ? std::string(key.section) + "." + key.key : key.key;
-}
-
 // For a list of tables.
 Json repetition_schema() {
   const Json number = {{"type", "integer"}, {"minimum", -1'000'000}, {"maximum", 1'000'000}};
@@ -113,8 +109,11 @@ Json form_of(const StudyKey& key, KeyForm form) {
     case KeyForm::boolean:
       return {{"type", "boolean"}};
     case KeyForm::text:
+    case KeyForm::expression:
+    case KeyForm::file:
       return {{"type", "string"}, {"minLength", 1}};
     case KeyForm::texts:
+    case KeyForm::files:
       return list_of({{"type", "string"}, {"minLength", 1}}, key.length);
     case KeyForm::name:
       return name_schema();
@@ -334,6 +333,7 @@ Json rules_of_study() {
 Json default_json(const StudyKey& key) {
   const double number = *key.by_default;
   if (key.form == KeyForm::boolean) return number != 0.0;
+  if (key.form == KeyForm::choice) return key.words[static_cast<std::size_t>(number)].word;
   return key.form == KeyForm::integer ? Json(static_cast<std::int64_t>(number)) : Json(number);
 }
 

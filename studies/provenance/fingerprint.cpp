@@ -4,12 +4,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <numeric>
+#include <set>
+#include <string_view>
 
 #include "solvers/mechanics/bends.hpp"
-#include "solvers/mechanics/rotation.hpp"
 #include "studies/provenance/digest.hpp"
+#include "studies/provenance/document_facts.hpp"
 #include "studies/reading/keys/study_keys.hpp"
+#include "studies/reading/keys/toml_section.hpp"
+#include "studies/reading/text/toml_writing.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -58,85 +63,117 @@ void add_parameters(const Study& study, CanonicalText& text) {
   }
 }
 
-std::string node_text(const mechanics::Node& node) {
-  return fmt::format("{}:{}", static_cast<int>(node.kind), node.index);
+// The text of a value: numbers in SI, expressions in one form, of a file nothing, as its content counts.
+class FactText {
+ public:
+  explicit FactText(const Study& study) : study_(&study), names_(study.parameters.names()) {}
+
+  std::string of(const Fact& fact) const { return of(fact.value, fact, fact.parameter); }
+
+  // Whether it says what would be so without it.
+  static bool is_default(const Fact& fact) {
+    if (!fact.key || !fact.key->by_default) return false;
+    const double otherwise = *fact.key->by_default;
+    if (const auto* flag = fact.value.as<bool>()) return *flag == (otherwise != 0.0);
+    if (const auto* word = fact.value.as<std::string>())
+      return fact.key->form == KeyForm::choice &&
+             *word == fact.key->words[static_cast<std::size_t>(otherwise)].word;
+    return is_number(fact.value) && plain(fact.value) == otherwise;
+  }
+
+ private:
+  // parameter: whose value a bare number is; "" for none.
+  std::string of(const TomlValue& value, const Fact& fact, const std::string& parameter) const {
+    if (is_number(value)) return number(plain(value), fact, parameter);
+    if (value.as<std::string>()) return of_text(value, *fact.key);
+    if (const auto* list = value.as<TomlArray>()) {
+      std::string items;
+      for (const TomlValue& each : *list) items += " " + of(each, fact, parameter);
+      return fmt::format("[{} ]", items);
+    }
+    return value.as<TomlTable>() ? of_table(value, fact, parameter) : toml_in_line(value);
+  }
+
+  std::string of_table(const TomlValue& table, const Fact& fact, const std::string& parameter) const {
+    const TomlEntry *number_of = find_entry(table, "value"), *unit_of = find_entry(table, "unit");
+    const auto* unit = unit_of ? unit_of->value.as<std::string>() : nullptr;
+    if (number_of && is_number(number_of->value) && unit) return in_si(plain(number_of->value), *unit);
+    const bool is_settings = fact.key->form == KeyForm::list_of_settings;
+    std::string entries;
+    for (const TomlEntry& each : *table.as<TomlTable>())
+      entries += fmt::format(" {} = {}", each.key, of(each.value, fact, is_settings ? each.key : parameter));
+    return fmt::format("{{{} }}", entries);
+  }
+
+  // Values along an axis count in SI. Elsewhere a number is written with the units in which it can be meant:
+  // its own, otherwise that of its parameter where the study uses it, and where the study defines it.
+  std::string number(double value, const Fact& fact, const std::string& parameter) const {
+    const auto index = study_->parameters.find(parameter);
+    if (index && std::string_view(fact.key->section).starts_with("axis"))
+      return fmt::format("{}", value * usual_unit(*study_, *index).si_factor);
+    std::string text = fmt::format("{}", value);
+    if (!fact.unit.empty()) return fmt::format("{} {}", text, fact.unit);
+    if (!index) return text;
+    const auto& defined_in = study_->parameters.list[*index].unit;
+    return fmt::format("{} {} {}", text, usual_unit(*study_, *index).text,
+                       defined_in ? defined_in->text : "");
+  }
+
+  // Where 1/s, Hz and 1/min count cycles depends on what is expected, so that they differ from rad/s here.
+  std::string in_si(double value, const std::string& text) const {
+    const Unit unit = units_.parse(text);
+    return fmt::format("{}{}", value * unit.scale, unit.counts_cycles() ? " cycles" : "");
+  }
+
+  std::string of_text(const TomlValue& text, const StudyKey& key) const {
+    const auto is_of = [&](std::initializer_list<KeyForm> forms) {
+      return std::ranges::find(forms, key.form) != forms.end() ||
+             (key.has_other && std::ranges::find(forms, key.other) != forms.end());
+    };
+    if (is_of({KeyForm::file, KeyForm::files})) return "file";
+    const bool may_be_factor = key.form == KeyForm::settings && key.inside == KeyForm::value;
+    if (may_be_factor ||
+        is_of({KeyForm::value, KeyForm::values, KeyForm::pairs, KeyForm::plain_value, KeyForm::expression}))
+      return Expression::parse(*text.as<std::string>(), names_).canonical_text(names_);
+    return toml_in_line(text);
+  }
+
+  static double plain(const TomlValue& number) {
+    const auto* whole = number.as<std::int64_t>();
+    return whole ? static_cast<double>(*whole) : *number.as<double>();
+  }
+
+  const Study* study_;
+  std::vector<std::string> names_;
+  UnitSystem units_;
+};
+
+// What a study says that is of one of these uses, by names, so that the order of its keys changes nothing;
+// the order of its lists of tables counts where all that they say is physics. Parameters are left out.
+void add_facts(const Facts& facts, const FactText& text_of, std::initializer_list<Use> uses,
+               CanonicalText& text) {
+  const auto counts = [&](Use use) { return std::ranges::find(uses, use) != uses.end(); };
+  std::set<std::string> lines;
+  for (const Fact& fact : facts.list) {
+    if (counts(fact.key->use) && path_of(*fact.key) != "parameters" && !FactText::is_default(fact))
+      lines.insert(fmt::format("{} = {}", fact.name, text_of.of(fact)));
+  }
+  for (const std::string& line : lines) text.line("{}", line);
+  for (const Sequence& sequence : facts.sequences) {
+    const auto rows = study_keys();
+    const bool is_physics = std::ranges::none_of(rows, [&](const StudyKey& row) {
+      return row.section == path_of(*sequence.key) && (row.use == Use::grid || row.use == Use::shown);
+    });
+    if (counts(is_physics ? Use::physics : Use::grid))
+      text.line("{} {}", sequence.name, fmt::join(sequence.members, ", "));
+  }
 }
 
-// Two nodes as ever: files of earlier versions know them so.
-std::string direction_text(const mechanics::Element& element) {
-  if (const auto& ends = element.along; mechanics::is_between_two_nodes(ends))
-    return fmt::format("{} {}", node_text(ends[0].node), node_text(ends[1].node));
-  std::string text = fmt::format("along rotational {} twists {}", element.rotational, element.twists_ground);
-  for (const auto& [node, factor] : element.along) text += fmt::format(" {} {}", node_text(node), factor);
-  return text;
-}
-
-void add_network(const Study& study, CanonicalText& text) {
-  const mechanics::Network& network = study.network;
-  const StudyValues& values = study.values;
-  const auto names = study.parameters.names();
-  const auto value = [&](const StudyValue& each) { return each.expression.canonical_text(names); };
-  for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    text.line("{} {} {}", mechanics::rotates(network, i) ? "inertia" : "mass", network.masses[i],
-              value(values.mass[i]));
-  }
-  text.line("prescribed {}", fmt::join(network.prescribed, " "));
-  for (std::size_t i = 0; i < network.elements.size(); ++i) {
-    const mechanics::Element& element = network.elements[i];
-    text.line("element {} {} {} {}", element.name, static_cast<int>(element.type), direction_text(element),
-              static_cast<int>(element.law));
-    const auto keys = mechanics::kind_of(element).values();
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      if (const StudyValue& each = values.elements[k][i]; each.is_given())
-        text.line("{} {}", keys[k]->key, value(each));
-    if (element.parts != 1) text.line("parts {}", element.parts);
-  }
-  for (std::size_t i = 0; i < network.elements.size(); ++i) {
-    const StudyCharacteristic& of = values.characteristic[i];
-    if (of.kind == StudyCharacteristic::Kind::none) continue;
-    text.line("characteristic {} {} sides {}", i, static_cast<int>(of.kind), fmt::join(of.sides, " "));
-    for (const mechanics::BendPlace& bend : network.elements[i].bends) text.line("bend {}", bend.law->name);
-    for (const StudyValue& each : values.points_of(i)) text.line("point {}", value(each));
-  }
-  text.line("frequency {}", value(values.omega));
-  for (std::size_t i = 0; i < network.excitations.size(); ++i) {
-    const mechanics::Excitation& excitation = network.excitations[i];
-    text.line("excitation {} {} {} {} {} {} {} {}", static_cast<int>(excitation.kind), excitation.node,
-              excitation.order, value(values.amplitude[i]), value(values.phase[i]), value(values.rod[i]),
-              excitation.taylor_order, excitation.even_orders);
-  }
-  text.line("reference order {}", network.reference_order);
-  for (const mechanics::Signal& signal : network.signals) {
-    text.line("signal {} rotational {}", signal.name, signal.rotational);
-    for (const mechanics::Share& share : signal.along)
-      text.line("share {} {}", node_text(share.node), share.factor);
-  }
-  if (network.damping != mechanics::DampingModel::none)
-    text.line("damping {}", static_cast<int>(network.damping));
-  for (const StudyValue& each : values.damping) text.line("damping value {}", value(each));
-  for (const mechanics::MatrixPart& part : network.matrices)
+// The parts of a system that come from files.
+void add_matrices(const Study& study, CanonicalText& text) {
+  for (const mechanics::MatrixPart& part : study.network.matrices)
     text.line("matrices {} {} {} {} {}", part.name, fmt::join(part.nodes, " "), digest(part.mass),
               digest(part.stiffness), digest(part.damping));
-}
-
-// The properties that distinguish decays or transients of the same network.
-void add_motion(const Study& study, CanonicalText& text) {
-  const auto names = study.parameters.names();
-  const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
-    if (value) text.line("{} {}", what, value->expression.canonical_text(names));
-  };
-  if (study.decay()) add("reference frequency", study.decay()->reference_frequency);
-  if (study.transient()) {
-    add("sweep to", study.transient()->sweep_to);
-    add("sweep rate", study.transient()->sweep_rate);
-    if (study.map()) add("duration", study.transient()->duration);
-    // The stairs of a run-up are refined until its samples stand.
-    if (study.map() && study.transient()->sweep_to) text.line("samples {}", study.transient()->samples);
-  }
-  for (const InitialValues& initial : study.initial()) {
-    text.line("initial {} {} {}", initial.mass, initial.displacement.expression.canonical_text(names),
-              initial.velocity.expression.canonical_text(names));
-  }
 }
 
 // The samples of records, wherever they come from.
@@ -151,102 +188,25 @@ void add_driving_records(const Study& study, CanonicalText& text) {
   }
 }
 
-void add_comparison(const Study& study, CanonicalText& text) {
-  if (!study.sweep() || !study.sweep()->comparison) return;
-  const Comparison& comparison = *study.sweep()->comparison;
-  text.line("compare law {} slope {} taylor order {}", static_cast<int>(comparison.law),
-            comparison.slope.expression.canonical_text(study.parameters.names()), comparison.taylor_order);
-  if (comparison.show) text.line("compare show {}", static_cast<int>(*comparison.show));
-  for (const periodic::Quantity& quantity : comparison.quantities)
-    text.line("compare {}", periodic::describe(quantity, study.network, study.dimensionless).name);
-}
-
-// The properties that distinguish tunings of the same network: all that the optimum depends on.
-void add_tuning(const Study& study, CanonicalText& text) {
-  if (!study.tune()) return;
-  const TuneChoice& tune = *study.tune();
-  const auto names = study.parameters.names();
-  const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
-  text.line("objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
-  if (const auto& peaks = tune.peaks)
-    text.line("peaks {} share {} for {}", static_cast<int>(peaks->goal.objective), peaks->goal.share,
-              peaks->duration);
-  if (tune.band) text.line("band {} {}", names[tune.band->parameter], band(tune.band->range));
-  constexpr int by_default = -1;
-  text.line("solver {} start {} global {} tolerance {}", tuning::name(tune.solver),
-            tune.start_is_given || tune.peaks ? static_cast<int>(tune.start) : by_default,
-            tune.start == tuning::Start::global ? tuning::name(tune.global_solver) : "", tune.tolerance);
-  if (tune.weight) text.line("weight {}", tune.weight->expression.canonical_text(names));
-  if (tune.objective == tuning::Objective::variance)
-    text.line("noise {} {} {}", static_cast<int>(tune.noise.kind), tune.noise.node, tune.noise.intensity);
-  if (tune.dominate_constant) text.line("dominates its constant");
-  for (const DesignChoice& design : tune.designs)
-    text.line("design {} {} {} knots {} slope {} jumps {}", names[design.parameter], design.lower,
-              design.upper, fmt::join(design.knots, " "), design.max_slope, design.may_leap);
-  for (const LimitChoice& limit : tune.limits)
-    text.line("limit {} {} {} over {}", limit.name, limit.lower, limit.upper,
-              limit.band ? band(*limit.band) : "all");
-  if (tune.trade_off)
-    text.line("trade off {} {}", tune.trade_off->name, fmt::join(tune.trade_off->limits, " "));
-  for (const ScenarioChoice& scenario : tune.scenarios) {
-    for (const Assignment& at : scenario.set) text.line("scenario {} {}", names[at.parameter], at.value);
-    text.line("scenario ends");
-  }
-}
-
-// The content of a tuning's file next to its optimum, and the number of starts.
-void add_assessment(const Study& study, CanonicalText& text) {
-  if (!study.tune()) return;
-  const auto names = study.parameters.names();
-  text.line("starts {}", study.tune()->starts);
-  for (const DesignChoice& design : study.tune()->designs) {
-    if (design.rule) text.line("rule {}", design.rule->expression.canonical_text(names));
-  }
-  // Limits in SI, or as the expression gives them: the column's unit is that of its record alone.
-  for (const ColumnChoice& column : study.tune()->columns)
-    text.line("column {} {} {} {}", column.name, column.value.expression.canonical_text(names),
-              column.lower * column.si_factor, column.upper * column.si_factor);
-  for (const ScenarioChoice& scenario : study.tune()->scenarios) text.line("named {}", scenario.name);
-}
-
-void add_records(const Study& study, CanonicalText& text) {
-  const auto names = study.parameters.names();
-  const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
-    if (value) text.line("{} {}", what, value->expression.canonical_text(names));
-  };
-  for (const RecordChoice& record : study.identify()->records) {
-    text.line("record {} motion {}{}", record.name, static_cast<int>(record.motion),
-              record.interpolation == transient::Interpolation::linear ? " linear" : "");
-    for (const Assignment& at : record.set) text.line("set {} {}", names[at.parameter], at.value);
-    add("added mass", record.added_mass);
-    add("static displacement", record.static_displacement);
+// The measurements of an identification, and the estimates that it takes over.
+void add_measurements(const IdentifyChoice& choice, std::span<const std::string> names, CanonicalText& text) {
+  for (const RecordChoice& record : choice.records) {
+    text.line("record {}", record.name);
     for (const DataColumn& column : record.columns)
       text.line("column {} {}", column.role, fmt::join(column.values, " "));
     text.line("labels {}", fmt::join(record.labels, "\n"));
   }
-}
-
-// The properties that distinguish identifications of the same network: data, method and parameters.
-void add_identification(const Study& study, CanonicalText& text) {
-  if (!study.identify()) return;
-  const IdentifyChoice& choice = *study.identify();
-  const auto names = study.parameters.names();
-  text.line("method {} start {} curve {} cycles {} offset {}", static_cast<int>(choice.method),
-            static_cast<int>(choice.start), static_cast<int>(choice.curve), choice.cycles.value_or(0),
-            choice.sensor_offset);
-  const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
-    if (value) text.line("{} {}", what, value->expression.canonical_text(names));
-  };
-  add("mass", choice.mass);
-  add("stiffness", choice.stiffness);
-  add("reference frequency", choice.reference_frequency);
-  for (const IdentifiedParameter& fitted : choice.parameters)
-    text.line("fitted {} {} {} each record {} estimate {}", names[fitted.parameter], fitted.lower,
-              fitted.upper, fitted.each_record, fitted.estimate);
   for (std::size_t i = 0; i < choice.fixed.size(); ++i)
     text.line("fixed {} {} {} degrees of freedom {}", names[choice.fixed[i].parameter], choice.fixed[i].value,
               fmt::join(choice.fixed_covariance[i], " "), choice.fixed[i].degrees_of_freedom);
-  add_records(study, text);
+}
+
+// The samples over which a tuning is made.
+void add_scenarios(const TuneChoice& tune, std::span<const std::string> names, CanonicalText& text) {
+  for (const ScenarioChoice& scenario : tune.scenarios) {
+    for (const Assignment& at : scenario.set) text.line("scenario {} {}", names[at.parameter], at.value);
+    text.line("scenario ends");
+  }
 }
 
 // The points of a sweep depend on all frequencies of their row.
@@ -258,35 +218,27 @@ void add_swept_frequencies(const SweepChoice& sweep, const Parameters& parameter
   }
 }
 
-std::string physics_hash(const Study& study, std::span<const std::string> quantities) {
+std::string physics_hash(const Study& study, const Facts& facts, const FactText& text_of,
+                         std::span<const std::string> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
-  const auto words = study_key("output", "precision").words;  // in the order of Precision
-  if (study.map())
-    text.line("precision {}", words[static_cast<std::size_t>(study.map()->output.precision)].word);
-  if (study.sweep() && study.sweep()->general_path) text.line("path general");
-  const bool searches = study.sweep() ? mechanics::may_have_several_responses(study.network)
-                                      : study.tune() && tuning::may_take_several_orbits(study.network);
-  if (searches) {
-    const periodic::OrbitsWanted wanted = study.orbits_wanted();
-    text.line("orbits {} {} {}", wanted.starts, wanted.most_multiple, static_cast<int>(wanted.show));
-    if (study.sweep()) add_swept_frequencies(*study.sweep(), study.parameters, text);
-  }
-  text.line("kind {}", kind_name(study.kind()));
-  text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
   add_parameters(study, text);
-  add_network(study, text);
-  add_motion(study, text);
+  add_facts(facts, text_of, {Use::physics}, text);
+  add_matrices(study, text);
   add_driving_records(study, text);
-  add_tuning(study, text);
-  add_identification(study, text);
-  add_comparison(study, text);
+  if (study.tune()) add_scenarios(*study.tune(), study.parameters.names(), text);
+  if (study.identify()) add_measurements(*study.identify(), study.parameters.names(), text);
+  // The stairs of a run-up are refined until its samples stand.
+  if (study.map() && study.transient() && study.transient()->sweep_to)
+    text.line("samples {}", study.transient()->samples);
+  if (study.sweep() && mechanics::may_have_several_responses(study.network))
+    add_swept_frequencies(*study.sweep(), study.parameters, text);
   for (const std::string& quantity : quantities) text.line("quantity {}", quantity);
   return text.hash();
 }
 
+// The points of a map: values that are spaced, drawn or read from files.
 void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
-  const auto names = study.parameters.names();
   for (const GridDimension& dimension : map.dimensions) {
     text.line("dimension {} {}", dimension.name, dimension.size);
     if (dimension.axes.empty()) text.line("records {}", fmt::join(map.records->names, "\n"));
@@ -295,39 +247,12 @@ void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
       text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
     }
   }
-  if (map.samples) text.line("samples {} {}", map.samples->dimension, fmt::join(map.samples->quantiles, " "));
-  for (const KeptPoint& point : map.output.histories) {
-    if (map.records) text.line("orbit under {}", point.record);
-    for (const Assignment& at : point.at) text.line("orbit {} {}", names[at.parameter], at.value);
-    text.line("orbit ends");
-  }
-  for (const DerivedCoordinate& coordinate : map.coordinates)
-    text.line("coordinate {} {}", coordinate.name, coordinate.value.expression.canonical_text(names));
 }
 
-void add_sweep(const Study& study, const SweepChoice& sweep, CanonicalText& text) {
-  if (sweep.borders) text.line("borders");
-  if (const auto& branches = sweep.branches) {
-    text.line("branches {}", study.parameters.list[sweep.axes[branches->axis].parameter].name);
-    for (const auto& row : branches->at) {
-      for (const Assignment& at : row)
-        text.line("branches at {} {}", study.parameters.list[at.parameter].name, at.value);
-      text.line("branches row ends");
-    }
-  }
-  text.line("resonances {}", fmt::join(sweep.resonances, " "));
-}
-
-std::string grid_hash(const Study& study, Tiling tiling) {
+std::string grid_hash(const Study& study, const Facts& facts, const FactText& text_of, Tiling tiling) {
   CanonicalText text;
+  add_facts(facts, text_of, {Use::grid, Use::shown}, text);
   if (study.map()) add_axes(study, *study.map(), text);
-  if (study.sweep()) add_sweep(study, *study.sweep(), text);
-  if (const MotionChoice* motion = study.motion()) {
-    text.line("samples {}", motion->samples);
-    if (motion->duration)
-      text.line("duration {}", motion->duration->expression.canonical_text(study.parameters.names()));
-  }
-  add_assessment(study, text);
   text.line("order {}", fmt::join(tiling.order, " "));
   text.line("tile {}", fmt::join(tiling.tile, " "));
   return text.hash();
@@ -336,7 +261,10 @@ std::string grid_hash(const Study& study, Tiling tiling) {
 }  // namespace
 
 engine::Fingerprint fingerprint(const Study& study, Tiling tiling, std::span<const std::string> quantities) {
-  return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, tiling)};
+  const Facts facts = facts_of(document_of(study));
+  const FactText text_of(study);
+  return {.physics = physics_hash(study, facts, text_of, quantities),
+          .grid = grid_hash(study, facts, text_of, tiling)};
 }
 
 engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity) {

@@ -15,14 +15,14 @@ struct Tiling {
   std::span<const std::uint64_t> tile;
 };
 
-// A hash of all that the results of a study depend on (XXH3, 128 bits, as hex).
+// A hash of all that the results of a study depend on (XXH3, 128 bits, as hex): what its document says key by
+// key (document_facts.hpp), by the use that the table of keys gives each of them, and what files and draws
+// give.
 // quantities: names of those recorded.
-// physics: network, definitions and values of the parameters (of those on an axis only that they are on one),
-// contents of tables, quantities, precision, version of the solver: what Use::physics says of a key. grid:
-// the names and SI values of the axes, the coordinates next to them and the tiles, a motion's duration and
-// samples, or a tuning's starts, rules and columns: Use::grid and Use::shown. Titles and what is said on
-// pages (Use::label), comments, names of files, the order of the parameters, and the unit in which one and
-// the same number is given change neither.
+// physics: Use::physics, the values of the parameters (of those on an axis only that they are on one), contents
+// of files, version of the solver. grid: Use::grid and Use::shown, the SI values along the axes and the tiles.
+// Titles and what is said on pages (Use::label), comments, names of files, the order of keys and parameters,
+// defaults that are written out, and the unit of a value and of an axis change neither.
 engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
                                 std::span<const std::string> quantities = {});
 

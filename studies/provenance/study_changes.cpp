@@ -4,38 +4,17 @@
 
 #include <algorithm>
 #include <sstream>
-#include <variant>
 
 #include "studies/provenance/document_changes.hpp"
+#include "studies/provenance/document_facts.hpp"
 #include "studies/provenance/finished_file.hpp"
 #include "studies/provenance/provenance.hpp"
 #include "studies/provenance/stored_study.hpp"
-#include "studies/reading/keys/repetition.hpp"
 #include "studies/reading/keys/toml_section.hpp"
-#include "studies/reading/study/toml_building.hpp"
 #include "studies/reading/text/toml_reading.hpp"
-#include "studies/reading/text/toml_writing.hpp"
 
 namespace frahm::studies {
 namespace {
-
-// The study's text as a document, with the numbers that its parameters have in this run. Those on an axis are
-// left out: their values are that of the axis.
-TomlValue document_of(const Study& study) {
-  TomlValue document = with_repetitions(study.source, read_toml(study.source));
-  TomlEntry* parameters = entry_of(std::get<TomlTable>(document.content), "parameters");
-  if (!parameters || !parameters->value.as<TomlTable>()) return document;
-  TomlTable in_this_run;
-  for (TomlEntry& entry : std::get<TomlTable>(parameters->value.content)) {
-    const auto i = study.parameters.find(entry.key);
-    if (!i || has_axis(study, *i)) continue;
-    if (const auto* number = std::get_if<double>(&study.parameters.list[*i].definition))
-      entry.value = toml_parameter(study, *i, *number);
-    in_this_run.push_back(std::move(entry));
-  }
-  parameters->value.content = std::move(in_this_run);
-  return document;
-}
 
 // For two studies that are the same apart from rounding: the axes that have another unit, and other numbers.
 std::vector<std::string> changed_roundings(const Study& kept, const Study& now,

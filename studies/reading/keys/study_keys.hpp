@@ -23,6 +23,9 @@ enum class KeyForm {
   boolean,
   text,
   texts,
+  expression,    // of parameters
+  file,          // its name, relative to the folder of the study
+  files,         // a list of those
   name,          // letters, digits and _, after a letter
   names,         // a list of those
   patterns,      // a list of those, or of patterns of them: "floor*_peak"
@@ -79,7 +82,8 @@ struct Length {
   std::size_t most = std::numeric_limits<std::size_t>::max();
 };
 
-// What a number, a whole number or a flag (1: true) is where the key is left out.
+// What a number, a whole number, a flag (1: true) or a choice (0: its first word) is where the key is left
+// out.
 struct Default {
   double value = 0.0;
 };
@@ -156,6 +160,9 @@ std::vector<std::string> keys_of(std::string_view section, std::string_view form
 std::vector<std::string> words_of(const StudyKey& key, std::string_view form = "");
 // The forms of `a|b`.
 std::vector<std::string> separated(std::string_view forms);
+
+// "mass.name", "mass".
+std::string path_of(const StudyKey& key);
 
 // As a study writes it: "[decay]", "[[mass]]".
 std::string written_section(const std::string& path);

@@ -69,15 +69,15 @@ TEST_CASE("a key that not all forms of its section have is told with those that 
 }
 
 TEST_CASE("a key is explained with what it is where it is left out") {
-  CHECK_THAT(explained("starts"),
-             Catch::Contains("starts; default 8\n"));
+  CHECK_THAT(explained("starts"), Catch::Contains("starts; default 8\n"));
   CHECK_THAT(explained("tolerance"), Catch::Contains("; default 1e-06"));
   CHECK_THAT(explained("borders"), Catch::Contains("; default false; for kind = sweep"));
   for (const StudyKey& key : study_keys()) {
     if (!key.by_default) continue;
     INFO(key.section << ": " << key.key);
     CHECK(key.limits.hold(*key.by_default));
-    CHECK((key.form == KeyForm::number || key.form == KeyForm::integer || key.form == KeyForm::boolean));
+    CHECK((key.form == KeyForm::number || key.form == KeyForm::integer || key.form == KeyForm::boolean ||
+           key.form == KeyForm::choice));
     CHECK_THAT(explained(key.key), Catch::Contains("; default "));
   }
 }

@@ -74,9 +74,8 @@ TEST_CASE("whatever changes a number changes the physics") {
   CHECK(of(base + "[output]\nquantities = \"all\"\n").physics != of(base).physics);
 }
 
-TEST_CASE("a lever's factors are physics, and a combination of two nodes is the element between them") {
+TEST_CASE("a lever's factors are physics") {
   const std::string ends = "between = [\"ground\", \"main\"]\nstiffness";
-  CHECK(of(with(base, ends, "along = { ground = -1, main = 1 }\nstiffness")) == of(base));
   const auto lever = of(with(base, ends, "along = { ground = -2, main = 2 }\nstiffness"));
   CHECK(lever.physics != of(base).physics);
   CHECK(of(with(base, ends, "along = { ground = -3, main = 2 }\nstiffness")).physics != lever.physics);
@@ -89,6 +88,27 @@ TEST_CASE("other values on an axis are another grid of the same physics") {
   CHECK(of(finer).grid != of(base).grid);
   const std::string turned = oscillator() + axis("r", 0.1, 2, 11) + axis("f", 0, 1, 5);
   CHECK(of(turned).grid != of(base).grid);
+}
+
+TEST_CASE("a default that is written out and the unit of a value change nothing") {
+  const std::string si = with(base, "dimensionless", "SI");
+  CHECK(of(base + "spacing = \"linear\"\n[output]\nprecision = \"double\"\n") == of(base));
+  CHECK(of(with(si, "mass = 1", "mass = { value = 1000, unit = \"g\" }")) == of(si));
+  CHECK(of(with(si, "zeta = 0.05", "zeta = { value = 50, unit = \"g/s\" }")) == of(si));
+}
+
+TEST_CASE("a unit that other numbers inherit is part of what they say") {
+  // The axis stays the same in SI, and the parameter's own value is none of the map's; of 0.1 in the unit of
+  // the axis there is another point.
+  const auto axis_in = [](const std::string& unit, const std::string& range) {
+    return with(oscillator(), "dimensionless", "SI") + axis("r", 0.1, 2, 11) +
+           "[[axis]]\nparameter = \"f\"\nunit = \"" + unit + "\"\n" + range + "points = 5\n";
+  };
+  const std::string in_newton = axis_in("N", "from = 0\nto = 1000\n"),
+                    in_kilonewton = axis_in("kN", "from = 0\nto = 1\n"),
+                    orbit = "[output]\norbits = [{ f = 1, r = 0.1 }]\n";
+  CHECK(of(in_newton) == of(in_kilonewton));
+  CHECK(of(in_newton + orbit).grid != of(in_kilonewton + orbit).grid);
 }
 
 TEST_CASE("the contents of a table are part of the physics") {

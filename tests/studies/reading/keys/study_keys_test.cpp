@@ -18,10 +18,6 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
 }
 
-std::string path_of(const StudyKey& key) {
-  return *key.section ? std::string(key.section) + "." + key.key : key.key;
-}
-
 // The key that decides the form of a section: its own, or one of a section above.
 const StudyKey* decider_called(const std::string& section, const std::string& name) {
   const std::string above = section.substr(0, section.find('.'));
