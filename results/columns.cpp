@@ -122,6 +122,12 @@ void write_columns(hdf5::Group& group, const std::vector<Column>& columns) {
   }
 }
 
+void write_content(hdf5::Group& group, const GroupContent& content) {
+  check(content.columns);
+  write_columns(group, content.columns);
+  for (const auto& [name, text] : content.texts) group.write_text(name, text);
+}
+
 std::vector<Column> read_columns(const hdf5::Group& group) {
   std::vector<Column> columns;
   const hdf5::Group::Scales scales = group.scales();

@@ -35,6 +35,9 @@ class GrowingColumn {
 // Writes checked columns into a group; a dimension without a column of its name gets an index.
 void write_columns(hdf5::Group& group, const std::vector<Column>& columns);
 
+// Checks the content of a new group and writes it there.
+void write_content(hdf5::Group& group, const GroupContent& content);
+
 // All columns of a group except indices: dimension scales first, then the rest in order of creation.
 std::vector<Column> read_columns(const hdf5::Group& group);
 

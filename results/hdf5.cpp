@@ -318,6 +318,10 @@ Group Group::create_group(const std::string& name) {
                path);
 }
 
+void Group::remove(const std::string& name) {
+  checked(H5Ldelete(id(), name.c_str(), H5P_DEFAULT), path_of(name), "cannot remove");
+}
+
 Group Group::group(const std::string& name) const {
   const std::string path = path_of(name);
   if (name.find('/') == std::string::npos) {

@@ -131,6 +131,7 @@ class Group : public Object {
 
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;
+  void remove(const std::string& name);  // the link to it, and with it what is in it
   Dataset create_dataset(const std::string& name, const Storage& storage);
   // StoreError where its data are not in this file, or their extent is none that a result may have.
   Dataset dataset(const std::string& name) const;

@@ -77,6 +77,13 @@ struct RaggedLayout {
 
 using Text = std::pair<std::string, std::string>;  // name, value in UTF-8
 
+// All of a group without rows of its own.
+struct GroupContent {
+  std::string path;  // "optimum", "optimum/front"
+  std::vector<Column> columns = {};
+  std::vector<Text> texts = {};
+};
+
 // These throw std::invalid_argument, naming the item, its value and the rule, for contents that some reader
 // could not open.
 void check(const MapLayout&);

@@ -156,6 +156,11 @@ void MapWriter::write_columns(const std::string& name, const std::vector<Column>
   results::write_columns(to, columns);
 }
 
+void MapWriter::write_group(const GroupContent& content) {
+  hdf5::Group to = file_.root().create_group(content.path);
+  write_content(to, content);
+}
+
 std::size_t MapWriter::create_ragged(const RaggedLayout& layout) {
   check(layout);
   tables_.emplace_back(group(layout.group), layout);

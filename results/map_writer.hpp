@@ -43,6 +43,9 @@ class MapWriter {
   // /decay, /transient.
   void write_columns(const std::string& group, const std::vector<Column>& columns);
 
+  // All of a group that is not in the file yet; the groups above it are.
+  void write_group(const GroupContent& content);
+
   // A group of rows that arrive one by one: /orbits, /borders. Returns its number, for append_ragged().
   std::size_t create_ragged(const RaggedLayout& layout);
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "results/columns.hpp"
 #include "results/hdf5.hpp"
 #include "results/part_file.hpp"
 #include "results/storage.hpp"
@@ -67,6 +68,14 @@ void reword_group(const hdf5::Group& group, const std::string& path, const Words
     reword_group(group.group(name), path.empty() ? name : path + "/" + name, words_of);
 }
 
+void write_anew(hdf5::Group& root, const std::vector<GroupContent>& groups) {
+  for (const GroupContent& content : groups) {
+    if (root.has(content.path)) root.remove(content.path);
+    hdf5::Group group = root.create_group(content.path);
+    write_content(group, content);
+  }
+}
+
 }  // namespace
 
 void reword(const std::filesystem::path& result, const Rewording& to) {
@@ -81,6 +90,7 @@ void reword(const std::filesystem::path& result, const Rewording& to) {
       replace_texts(of, texts);
     }
     reword_group(root, "", to.words_of);
+    write_anew(root, to.anew);
   }
   file.close();
   part.publish();

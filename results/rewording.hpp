@@ -22,11 +22,12 @@ struct Words {
 // The words of a variable of a group (its path; "" the root); nothing where they stay.
 using WordsOf = std::function<std::optional<Words>(const std::string& group, const Variable& variable)>;
 
-// Words and units of a result, in place of those that its file has.
+// Words, units and whole groups of a result, in place of those that its file has.
 struct Rewording {
   std::string title;
   std::vector<std::pair<std::string, std::vector<Text>>> texts;  // of groups: of those they have
   WordsOf words_of;
+  std::vector<GroupContent> anew = {};  // each after the one above it; also groups that the file has not
 };
 
 // Writes them into a copy of the file, which takes the place of the file in one step: a process that is

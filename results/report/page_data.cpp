@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 
 #include "results/box.hpp"
@@ -106,12 +107,28 @@ std::size_t index_of(const MapLayout& layout, const std::string& name) {
   throw std::invalid_argument(fmt::format("the map has no quantity \"{}\"", name));
 }
 
+std::optional<std::string> page_text(const MapReader& result, const std::string& name) {
+  if (!result.has_group(page_group)) return std::nullopt;
+  const std::vector<Text> texts = result.texts(page_group);
+  const auto found = std::ranges::find(texts, name, &Text::first);
+  return found == texts.end() ? std::nullopt : std::optional(found->second);
+}
+
+// The coordinates of the map that are the study's own parameters; of an earlier file those of the axes.
+std::vector<std::string> parameters_of(const MapReader& result) {
+  if (auto parameters = page_list(result, parameters_text)) return *parameters;
+  std::vector<std::string> names;
+  for (const Axis& axis : result.layout().axes) names.push_back(axis.name);
+  return names;
+}
+
 Json map_json(const MapReader& result, const PageContent& content) {
   const std::vector<std::string>& chosen = content.variables;
   const MapLayout& layout = result.layout();
   Json json{
-      {"axes", Json::array()}, {"along", longest(shape_of(layout))}, {"parameters", content.parameters}};
-  if (content.samples) json["samples"] = *content.samples;
+      {"axes", Json::array()}, {"along", longest(shape_of(layout))}, {"parameters", parameters_of(result)}};
+  const auto samples = std::ranges::find(layout.axes, page_text(result, samples_text), &Axis::name);
+  if (samples != layout.axes.end()) json["samples"] = samples - layout.axes.begin();
   for (const Axis& axis : layout.axes) json["axes"].push_back(axis_json(axis));
   json["variables"] = json["left_out"] = Json::array();
   Carried carried;
@@ -173,14 +190,15 @@ std::vector<Column> shown_columns(const MapReader& result, const PageContent& co
   return columns;
 }
 
-// Every group of the file except the provenance, by its path.
+// Every group of the file except the provenance, by its path; those in /page without it.
 Json groups_json(const MapReader& result, const PageContent& content) {
+  const std::string in_page = std::string(page_group) + "/";
   Json json = Json::object();
   for (const std::string& name : result.groups()) {
-    if (name == provenance_group) continue;
-    json[name] = group_json(result.texts(name), shown_columns(result, content, name));
+    if (name == provenance_group || name == page_group) continue;
+    json[name.starts_with(in_page) ? name.substr(in_page.size()) : name] =
+        group_json(result.texts(name), shown_columns(result, content, name));
   }
-  for (const PageGroup& group : content.groups) json[group.name] = group_json(group.texts, group.columns);
   return json;
 }
 
@@ -198,6 +216,15 @@ std::string without_markup(const std::string& text) {
 }
 
 }  // namespace
+
+std::optional<std::vector<std::string>> page_list(const MapReader& result, const std::string& text) {
+  const std::optional<std::string> joined = page_text(result, text);
+  if (!joined) return std::nullopt;
+  std::vector<std::string> names;
+  std::istringstream stream(*joined);
+  for (std::string name; std::getline(stream, name, ',');) names.push_back(name);
+  return names;
+}
 
 std::string page_data(const MapReader& result, const PageContent& content) {
   const MapLayout& layout = result.layout();

@@ -10,21 +10,20 @@
 
 namespace frahm::results {
 
-// A group that the page shows but the file does not contain.
-struct PageGroup {
-  std::string name;
-  std::vector<Column> columns;
-  std::vector<Text> texts = {};
-};
+// The group that a run writes for the page (FORMAT.md), and the texts in it that are about a map. The page
+// has the groups in it, such as /page/crank, by their own names.
+inline constexpr const char* page_group = "page";
+inline constexpr const char* parameters_text = "parameters";
+inline constexpr const char* samples_text = "samples";
+
+// The names in a text of /page; none if the file, of an earlier version, has no such text. Throws StoreError.
+std::optional<std::vector<std::string>> page_list(const MapReader& result, const std::string& text);
 
 // The contents of a result's page.
 struct PageContent {
-  std::string file;                          // file name shown on the page
-  std::vector<std::string> parameters = {};  // coordinates of the map that are the study's own parameters
-  std::vector<std::string> variables = {};   // of the map; of the others the page has the names only
-  std::vector<PageGroup> groups = {};        // besides those of the file
-  std::optional<std::size_t> samples = {};   // the axis of the map along which parameters scatter
-  bool all_digits = false;                   // of the map's numbers; otherwise six
+  std::string file;                         // file name shown on the page
+  std::vector<std::string> variables = {};  // of the map; of the others the page has the names only
+  bool all_digits = false;                  // of the map's numbers; otherwise six
 };
 
 // The result as JSON, the data of its page (page/record.js reads it): attributes of the root; axes with their

@@ -15,6 +15,7 @@
 #include "studies/map/statistics_group.hpp"
 #include "studies/map/tile_entry.hpp"
 #include "studies/map/tornado_group.hpp"
+#include "studies/page/finish_result.hpp"
 #include "studies/provenance/array_tasks.hpp"
 #include "studies/provenance/assembly_stage.hpp"
 
@@ -178,8 +179,7 @@ Assembly make_file(const MapPlan& plan, const RunFacts& run, const AssemblyOptio
     write_histories(plan, options, writer);
   }
   write_modes(plan.study, writer);
-  writer.write_texts("provenance", provenance(plan, run, failures.texts(plan.study), missing.size()));
-  writer.finish();
+  finish_result(writer, plan, layout, run, failures.texts(plan.study), missing.size());
   return {.finished = true,
           .tiles = index.places.size(),
           .missing_tiles = missing.size(),

@@ -73,6 +73,7 @@ std::map<std::string, Taken> names_of_coordinates(const Study& study) {
 // Groups of the file and their contents next to the axes' own parameters.
 std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& study) {
   std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"},
+                                                         {"page", "a group of the file"},
                                                          {"modes", "a group of the file"}};
   for (const char* name : {"mode", "mode_mass", "mode_frequency", "mode_damping"})
     names.emplace_back(name, "a variable of the modes");

@@ -18,6 +18,7 @@
 #include "studies/map/branch_group.hpp"
 #include "studies/map/branch_rows.hpp"
 #include "studies/map/output_quantities.hpp"
+#include "studies/page/finish_result.hpp"
 #include "studies/program/branch_table.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/refusal_advice.hpp"
@@ -203,11 +204,11 @@ void write_result(const BranchCommandOptions& options, const StudyPlan& plan, st
                   const periodic::Branch& branch, const std::string& started) {
   const Study& study = plan.study;
   const RunFacts run{.command = options.command, .threads = 1, .started = started};
-  results::MapWriter writer(*options.output, file_layout(plan, run));
+  const results::MapLayout layout = file_layout(plan, run);
+  results::MapWriter writer(*options.output, layout);
   BranchGroup(study, along, axis_parameters_beside(study, along), quantities, writer)
       .append(parameters, branch);
-  writer.write_texts("provenance", provenance(plan, run, {}));
-  writer.finish();
+  finish_result(writer, plan, layout, run);
 }
 
 }  // namespace

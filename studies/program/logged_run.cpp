@@ -14,6 +14,7 @@
 #include "engine/stop_request.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/earlier_axes.hpp"
+#include "studies/page/page_groups.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/growing.hpp"
 #include "studies/program/refusal_advice.hpp"
@@ -40,6 +41,7 @@ std::vector<std::string> write_words(const StudyPlan& plan, const LoggedWork& wo
     if (is_provenance) changed = std::move(of_group.second);
     return is_provenance;
   });
+  words.anew = page_groups(plan.study, finished.layout());
   words.texts.emplace_back("provenance", provenance_in_words(finished.texts("provenance"), plan, changed));
   results::reword(output, words);
   return other.changes;

@@ -9,11 +9,10 @@
 
 namespace frahm::studies {
 
-// The content of a result's page: the requested quantities of a map, otherwise those of the study's [report],
-// otherwise those of an atlas; and facts of the study (its cranks, the period of its excitation). If the
-// stored study cannot be read, these facts are left out, with a note on standard error.  file: of `result`;
-// all_digits: of the map's numbers, otherwise six. Throws StudyError for a quantity that the map does not
-// have, and for more numbers than a page can hold.
+// The content of a result's page: the requested quantities of a map, otherwise those that its run chose
+// (/page, results/FORMAT.md). A file of an earlier version has no /page: a note on standard error says so.
+// file: of `result`; all_digits: of the map's numbers, otherwise six. Throws StudyError for a quantity that
+// the map does not have, and for more numbers than a page can hold.
 results::PageContent page_content(const results::MapReader& result, const std::filesystem::path& file,
                                   const std::vector<std::string>& quantities, bool all_digits);
 

@@ -13,6 +13,7 @@
 #include "results/map_writer.hpp"
 #include "studies/identification/identification_columns.hpp"
 #include "studies/motion/one_motion.hpp"
+#include "studies/page/finish_result.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/provenance/finished_file.hpp"
@@ -51,13 +52,11 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
 }
 
 void write_file(const StudyPlan& plan, const RunFacts& facts, const std::filesystem::path& output,
-                const std::string& group, const std::vector<results::Column>& columns,
-                const std::vector<results::Text>& texts = {}) {
-  results::MapWriter writer(output, file_layout(plan, facts));
-  writer.write_columns(group, columns);
-  if (!texts.empty()) writer.write_texts(group, texts);
-  writer.write_texts("provenance", provenance(plan, facts, {}));
-  writer.finish();
+                const results::GroupContent& group) {
+  const results::MapLayout layout = file_layout(plan, facts);
+  results::MapWriter writer(output, layout);
+  writer.write_group(group);
+  finish_result(writer, plan, layout, facts);
 }
 
 // Returns the exit code.
@@ -68,20 +67,22 @@ int compute(const StudyPlan& plan, const RunFacts& facts, const std::filesystem:
   switch (study.kind()) {
     case StudyKind::identify: {
       const IdentificationResult result = identify(study, watch);
-      write_file(plan, facts, output, identification_group, identification_columns(study, result),
-                 identification_texts(study, result));
+      write_file(plan, facts, output,
+                 {.path = identification_group,
+                  .columns = identification_columns(study, result),
+                  .texts = identification_texts(study, result)});
       print_identification(study, result, out);
       return result.fit.converged ? exit_code::done : exit_code::not_converged;
     }
     case StudyKind::decay: {
       const transient::FreeDecay decay = solve_decay(study, watch);
-      write_file(plan, facts, output, group, decay_columns(study, decay));
+      write_file(plan, facts, output, {.path = group, .columns = decay_columns(study, decay)});
       print_decay(study, decay, out);
       return exit_code::done;
     }
     case StudyKind::transient: {
       const transient::ForcedMotion motion = solve_transient(study, watch);
-      write_file(plan, facts, output, group, transient_columns(study, motion));
+      write_file(plan, facts, output, {.path = group, .columns = transient_columns(study, motion)});
       print_transient(study, motion, out);
       return exit_code::done;
     }

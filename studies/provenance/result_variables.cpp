@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* of_map = "map";
 constexpr const char* of_motion = "motion";
-constexpr const char* of_page = "page of a study with a crank";
+constexpr const char* of_crank = "study with a crank";
 constexpr const char* of_tuning = "tuning";
 constexpr const char* of_front = "trade-off's front";
 constexpr const char* of_fit = "identification";
@@ -98,12 +98,21 @@ constexpr ResultVariable all_variables[] = {
     {"stop_time", "decay", "time from which nothing moves any more"},
     {"duration", "decay", "time until which the motion is recorded"},
     {"reference_frequency", "decay", "frequency of the loss factors"},
-    // crank, on the page alone
-    {"angle", of_page, "angle of the crank"},
-    {"*_motion", of_page, "displacement of {a support} by its crank"},
-    {"*_taylor_*", of_page,
+    // /page
+    {"angle", of_crank, "angle of the crank"},
+    {"*_motion", of_crank, "displacement of {a support} by its crank"},
+    {"*_taylor_*", of_crank,
      "displacement of {a support} by the Taylor series of its crank, cut at order {2}"},
-    {"*_taylor_*_error", of_page, "error of the Taylor series of {a support} at order {2}, relative to l_AC"},
+    {"*_taylor_*_error", of_crank,
+     "error of the Taylor series of {a support} at order {2}, relative to l_AC"},
+    {"height", of_map, "height of each mass of the profile above the base"},
+    {"rubbing_elements", of_motion, "number of elements that can stop a motion by friction"},
+    {"hysteretic_elements", of_motion, "number of elements whose damping depends on the frequency"},
+    {"given_duration", of_motion, "1 if the study says until when the motion is followed, otherwise 0"},
+    {"frequency_unit", of_motion, "unit of the excitation frequency in rad/s"},
+    {"*_band_from", of_tuning,
+     "lower end of the part of the band over which the limit of {a quantity} holds"},
+    {"*_band_to", of_tuning, "upper end of the part of the band over which the limit of {a quantity} holds"},
     // /optimum
     {"objective", "tuning, front",
      "objective of the optimum: the worst peak over band and scenarios, mean square or variance"},
@@ -159,7 +168,7 @@ constexpr ResultVariable all_variables[] = {
     {"*_limit_excess", of_tuning, "{a quantity} over its limit, relative to the limit; 0 where it is met"},
     {"*_limit_multiplier", of_tuning,
      "fall of the objective per unit by which the limit of {a quantity} is relaxed"},
-    {"excitation_frequency", of_tuning, "angular frequency of the excitation along the band"},
+    {"excitation_frequency", "tuning, motion", "angular frequency of the excitation {along the band}"},
     {"weight", of_tuning, "factor on the response along the band"},
     {"response_before*", of_tuning,
      "weighted {response} along the band for the design that the study states{}"},

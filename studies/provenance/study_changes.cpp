@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "results/report/page_data.hpp"
 #include "studies/provenance/document_changes.hpp"
 #include "studies/provenance/document_facts.hpp"
 #include "studies/provenance/finished_file.hpp"
@@ -94,9 +95,11 @@ OtherWords other_words(const results::MapReader& result, const std::filesystem::
                        const StudyPlan& now) {
   const bool is_the_same = provenance_text(result, "study") == now.study.source.text &&
                            provenance_text(result, "overrides") == overrides_text(now.set);
-  if (is_the_same) return {};
-  OtherWords words{.kept = read_stored_study(result, file).study, .changes = {}};
+  const bool has_page = result.has_group(results::page_group);
+  if (is_the_same && has_page) return {};
+  OtherWords words{.kept = is_the_same ? now.study : read_stored_study(result, file).study, .changes = {}};
   words.changes = word_changes(document_of(*words.kept), document_of(now.study));
+  if (!has_page) words.changes.emplace_back("what the report shows of the study: new");
   return words;
 }
 

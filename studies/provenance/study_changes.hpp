@@ -20,9 +20,9 @@ std::vector<std::string> changes_since(const results::MapReader& result, const s
                                        const StudyPlan& now);
 
 // What a finished result says in other words than a study with its fingerprint: titles, units, whatever
-// changes no number.
+// changes no number; and that an earlier version has not written /page.
 struct OtherWords {
-  std::optional<Study> kept = std::nullopt;  // the study of the result, where it is not this very text
+  std::optional<Study> kept = std::nullopt;  // the study of the result, where there is something to write
   std::vector<std::string> changes = {};     // a line for each
 };
 

@@ -5,6 +5,7 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
+#include "studies/page/finish_result.hpp"
 #include "studies/provenance/array_tasks.hpp"
 #include "studies/provenance/assembly_stage.hpp"
 #include "studies/provenance/provenance.hpp"
@@ -28,12 +29,12 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
 
 void write_file(const StudyPlan& plan, const RunFacts& run, const std::filesystem::path& output,
                 const TuningResult& result, std::uint64_t missing) {
-  results::MapWriter writer(output, file_layout(plan, run));
+  const results::MapLayout layout = file_layout(plan, run);
+  results::MapWriter writer(output, layout);
   writer.write_columns(optimum_group, optimum_columns(plan.study, result));
   writer.write_texts(optimum_group, optimum_texts(plan.study, result));
   if (plan.study.tune()->trade_off) writer.write_columns(front_group, front_columns(plan.study, result));
-  writer.write_texts("provenance", provenance(plan, run, {}, missing));
-  writer.finish();
+  finish_result(writer, plan, layout, run, {}, missing);
 }
 
 }  // namespace

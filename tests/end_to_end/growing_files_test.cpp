@@ -6,6 +6,7 @@
 #include <functional>
 #include <tuple>
 
+#include "results/report/page_data.hpp"
 #include "tests/end_to_end/grown_maps.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/results/whole_map.hpp"
@@ -83,6 +84,20 @@ TEST_CASE("a title or [report] that is changed is written by a rerun, without a 
   CHECK_THAT(run(study, output).out, Catch::Contains("computed already") && !Catch::Contains("written"));
   CHECK_THAT(run(study, output, {"--from", output}).out,
              Catch::Contains("computed already") && !Catch::Contains("written"));
+}
+
+TEST_CASE("what the page shows follows a headline that is changed, without a point computed") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), output = folder / "small.h5";
+  const auto first_shown = [&] {
+    return ::frahm::results::page_list(::frahm::results::MapReader(output), "shown").value().front();
+  };
+  REQUIRE(run(study, output).code == 0);
+  CHECK(first_shown() == "main_peak");
+  folder.write("small.toml", small + "[report]\nheadline = \"spring\"\n");
+  const auto told = run(study, output);
+  CHECK_THAT(told.out, Catch::Contains("nothing is computed") && Catch::Contains("[report]: new"));
+  CHECK(first_shown() == "spring_stroke");
 }
 
 TEST_CASE("a map never takes the place of one it grows from that has points it has not") {

@@ -179,6 +179,10 @@ TEST_CASE("other words of a sweep, and other units of its axes, are written into
                 "values = [0.004, 0.005, 0.006, 0.008], unit = \"rad/ms\""}},
               "axis \"omega\": unit: \"rad/s\", now \"rad/ms\"");
   check_words(folder, map, {{"output =", "report = { headline = \"m\" }\noutput ="}}, "[report]: new");
+  const std::string building = small_studies::building(2, 1, 3),
+                    report = "[report]\nquantities = [\"status\"]\nprofile = \"all\"\nheight = 3\n";
+  check_words(folder, building, {{"[[axis]]", report + "[[axis]]"}}, "[report]: new");
+  check_words(folder, report + building, {{report, ""}}, "[report]: gone");
 }
 
 TEST_CASE("points that failed are told in the units of the study, also where these are others") {

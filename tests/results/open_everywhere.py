@@ -86,6 +86,10 @@ def check_xarray(path, engine):
         same("inertance", d["inertance"].values, np.array([4.72, np.nan, 12.9]))
         assert d["inertance"].dims == ("knot",) and list(d["knot"].values) == [15.0, 25.0, 35.0]
         assert d.sizes["peak"] == 0
+    with xr.open_dataset(path, engine=engine, group="page") as d:
+        assert d.attrs["parameters"] == "k,c" and not d.variables
+    with xr.open_dataset(path, engine=engine, group="page/crank") as d:
+        same("angle", d["angle"].values, np.array([0.0, 1.0]))
 
 
 def check_h5py(path):

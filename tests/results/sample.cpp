@@ -92,6 +92,13 @@ void write_groups(MapWriter& writer) {
        {.variable = {.name = "active", .unit = "rad s-1", .long_name = "active peak"},
         .dimension = "peak",
         .values = {}}});
+
+  writer.write_group({.path = "page", .texts = {{"parameters", "k,c"}, {"samples", "design"}, {"none", ""}}});
+  writer.write_group({.path = "page/crank",
+                      .columns = {{.variable = {.name = "angle", .unit = "rad", .long_name = "angle"},
+                                   .dimension = "angle",
+                                   .values = {0.0, 1.0}}},
+                      .texts = {{"of", "main"}}});
 }
 
 }  // namespace

@@ -45,16 +45,40 @@ TEST_CASE("a page has the axes, the variables asked for, and the names of the ot
   CHECK(data["provenance"]["study"] == sample::study_text());
 }
 
-TEST_CASE("a page has every group of the file but the provenance, and those that are added") {
+TEST_CASE("a page has every group of the file but the provenance, those in /page by their own names") {
   const TemporaryDirectory directory;
   sample::write(directory / "sample.h5");
   const MapReader result(directory / "sample.h5");
-  const Column angle{
-      .variable = {.name = "angle", .unit = "rad"}, .dimension = "angle", .values = {0.0, 1.0}};
-  const Json data = Json::parse(page_data(result, {.file = "sample.h5", .groups = {{"crank", {angle}}}}));
+  const Json data = Json::parse(page_data(result, {.file = "sample.h5"}));
   for (const std::string& group : result.groups())
-    CHECK(data["groups"].contains(group) == (group != "provenance"));
+    CHECK(data["groups"].contains(group) == (group != "provenance" && !group.starts_with("page")));
   CHECK(names_in(data["groups"]["crank"]["columns"]) == std::set<std::string>{"angle"});
+  CHECK(data["groups"]["crank"]["texts"]["of"] == "main");
+}
+
+TEST_CASE("a page knows from /page the parameters of the study and the axis of samples") {
+  const TemporaryDirectory directory;
+  sample::write(directory / "sample.h5");
+  const MapReader result(directory / "sample.h5");
+  const Json map = Json::parse(page_data(result, {.file = "sample.h5"}))["map"];
+  CHECK(map["parameters"] == Json{"k", "c"});
+  CHECK(map["samples"] == 0);
+  using Names = std::vector<std::string>;
+  CHECK(page_list(result, "parameters") == Names{"k", "c"});
+  CHECK(page_list(result, "none") == Names{});
+  CHECK_FALSE(page_list(result, "no such text"));
+}
+
+TEST_CASE("of a file without /page the axes stand for the parameters") {
+  const TemporaryDirectory directory;
+  MapWriter writer(directory / "early.h5", sample::layout());
+  writer.write_texts("provenance", {{"study", ""}});
+  writer.finish();
+  const MapReader result(directory / "early.h5");
+  const Json map = Json::parse(page_data(result, {.file = "early.h5"}))["map"];
+  CHECK(map["parameters"] == Json{"design", "omega"});
+  CHECK_FALSE(map.contains("samples"));
+  CHECK_FALSE(page_list(result, "parameters"));
 }
 
 TEST_CASE("a variable that the map does not have is refused by name") {

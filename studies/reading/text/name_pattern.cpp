@@ -26,6 +26,16 @@ bool matches(const std::string& name_or_pattern, const std::string& name) {
   return fnmatch(as_path(name_or_pattern).c_str(), as_path(name).c_str(), FNM_PATHNAME) == 0;
 }
 
+std::vector<std::string> matching(std::span<const std::string> names_or_patterns,
+                                  std::span<const std::string> names) {
+  std::vector<std::string> found;
+  for (const std::string& each : names_or_patterns) {
+    for (const std::string& name : names)
+      if (matches(each, name) && std::ranges::find(found, name) == found.end()) found.push_back(name);
+  }
+  return found;
+}
+
 std::string hint_of_unmatched(const std::string& name_or_pattern, std::span<const std::string> names) {
   if (!is_pattern(name_or_pattern)) return suggestion(name_or_pattern, names);
   const std::string rule = "; \"*\" stands for letters and digits and stops at \"_\"";

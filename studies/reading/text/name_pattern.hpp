@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace frahm::studies {
 
@@ -11,6 +12,11 @@ bool is_pattern(const std::string& text);
 
 // Whether a name is the one given, or one that the pattern stands for.
 bool matches(const std::string& name_or_pattern, const std::string& name);
+
+// The names that any of these names and patterns stands for: those of the first, those of the next, each
+// once.
+std::vector<std::string> matching(std::span<const std::string> names_or_patterns,
+                                  std::span<const std::string> names);
 
 // What a message says of a name or pattern that matches none of these: "; did you mean ...?", and where a
 // star stops.

@@ -24,10 +24,10 @@ std::regex written(const std::string& name) {
   return std::regex("`" + std::regex_replace(name, std::regex("\\*"), any_name) + "`");
 }
 
-// What FORMAT.md does not list by name: the estimates of the methods, the data, and what the page alone has.
+// What FORMAT.md does not list by name: the estimates of the methods, and the data.
 bool is_listed_elsewhere(const ResultVariable& row) {
   const std::string of = row.of, meaning = row.meaning;
-  return meaning.starts_with("estimate:") || of.starts_with("data") || of.starts_with("page");
+  return meaning.starts_with("estimate:") || of.starts_with("data");
 }
 
 TEST_CASE("every variable of results has one row, and stands in FORMAT.md") {

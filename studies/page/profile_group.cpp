@@ -1,4 +1,4 @@
-#include "studies/program/report_profile.hpp"
+#include "studies/page/profile_group.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "solvers/quantities/quantity.hpp"
+#include "studies/provenance/result_variables.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -44,7 +45,7 @@ std::vector<std::size_t> springs_below(const Study& study, const Profile& profil
 
 }  // namespace
 
-results::PageGroup profile_group(const Study& study, const Profile& profile) {
+results::GroupContent profile_group(const Study& study, const Profile& profile) {
   const mechanics::Network& network = study.network;
   std::vector<std::string> masses, springs, owners = network.masses;
   for (const std::size_t mass : profile.masses) masses.push_back(network.masses[mass]);
@@ -56,29 +57,25 @@ results::PageGroup profile_group(const Study& study, const Profile& profile) {
   const auto list = [](const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ","));
   };
-  results::PageGroup group{
-      .name = "profile",
-      .columns = {},
+  results::GroupContent group{
+      .path = "page/profile",
       .texts = {{"masses", list(masses)}, {"springs", list(springs)}, {"owners", list(owners)}}};
   if (!profile.position)
     group.texts.emplace_back(
         "hint", "all masses in the order of the study, absorbers too; [report] profile names the storeys");
   if (!profile.height.empty())
-    group.columns.push_back({.variable = {.name = "height",
-                                          .unit = study.dimensionless ? "1" : "m",
-                                          .long_name = "height of each mass above the base"},
+    group.columns.push_back({.variable = variable("height", study.dimensionless ? "1" : "m"),
                              .dimension = "place",
                              .values = profile.height});
   return group;
 }
 
 std::vector<std::string> profile_quantities(const Study& study, const Profile& profile,
-                                            const results::MapLayout& layout) {
+                                            const std::vector<results::Variable>& recorded) {
   std::vector<std::string> names;
   const auto add = [&](periodic::Measure measure, std::size_t index) {
     const std::string name = periodic::describe({measure, index}, study.network, study.dimensionless).name;
-    if (std::ranges::find(layout.variables, name, &results::Variable::name) != layout.variables.end())
-      names.push_back(name);
+    if (std::ranges::find(recorded, name, &results::Variable::name) != recorded.end()) names.push_back(name);
   };
   for (const std::size_t mass : profile.masses) add(periodic::Measure::peak, mass);
   for (const std::size_t spring : springs_below(study, profile))

@@ -1,4 +1,4 @@
-#include "studies/program/report_facts.hpp"
+#include "studies/page/study_facts.hpp"
 
 #include <fmt/format.h>
 
@@ -10,76 +10,35 @@
 
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
-#include "studies/motion/crank_motion.hpp"
 #include "studies/motion/one_motion.hpp"
-#include "studies/program/report_profile.hpp"
+#include "studies/provenance/group_columns.hpp"
 #include "studies/reading/study/study_units.hpp"
 #include "studies/tuning/optimum_columns.hpp"
 
 namespace frahm::studies {
 namespace {
 
-// The study's excitation frequency [rad/s], from which the page knows the period.
-results::Column excitation_frequency(const Study& study) {
-  std::vector<double> parameters = study.parameters.nominal();
-  mechanics::NetworkValues values;
-  evaluate(study.values, study.parameters, parameters, values);
-  return {.variable = {.name = "excitation_frequency",
-                       .unit = study.dimensionless ? "1" : "rad s-1",
-                       .long_name = "excitation frequency as the study states it"},
-          .values = {values.omega}};
-}
-
-// What the unit of the run's frequency is in rad/s, which the page takes periods from; none of SI.
-std::vector<results::Column> frequency_unit_in_si(const Study& study) {
-  const UsualUnit unit = frequency_unit_in_file(study);
-  if (unit.si_factor == 1.0) return {};
-  return {{.variable = {.name = "frequency_unit",
-                        .unit = unit.text,
-                        .long_name = "unit of the excitation frequency in rad/s"},
-           .values = {unit.si_factor}}};
-}
-
-// The number of elements that meet a condition.
-template <class Condition>
-results::Column number_of(const Study& study, const std::string& name, const Condition& holds) {
-  const auto& elements = study.network.elements;
-  const mechanics::NetworkValues values = motion_values(study);
-  double number = 0.0;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    const mechanics::ElementKind& kind = mechanics::kind_of(elements[e]);
-    constexpr double any_frequency = 1.0;
-    if (holds(kind, kind.adds(values.element[e], mechanics::second_value(values, e), any_frequency)))
-      ++number;
-  }
-  return {.variable = {.name = name, .unit = "1", .long_name = "number of them in the study"},
-          .values = {number}};
-}
-
-// Without a duration a free vibration is followed to its end, as far as it has one.
-results::Column given_duration(const Study& study) {
-  return {.variable = {.name = "given_duration",
-                       .unit = "1",
-                       .long_name = "whether the study says until when its motion is followed"},
-          .values = {study.motion()->duration ? 1.0 : 0.0}};
-}
-
-// The page of a motion needs these to know whether the motion can end, and its period.
+// Whether the motion can end, and its period.
 std::vector<results::Column> motion_facts(const Study& study) {
-  using mechanics::ElementKind;
-  using Added = mechanics::Added<double>;
-  const auto rubs = [](const ElementKind&, const Added& added) { return added.limit != 0.0; };
-  const auto hysteretic = [](const ElementKind& kind, const Added& added) {
-    return kind.depends_on_frequency && added.stiffness != 0.0;
-  };
-  std::vector<results::Column> facts = {number_of(study, "rubbing_elements", rubs),
-                                        number_of(study, "hysteretic_elements", hysteretic),
-                                        given_duration(study)};
-  if (study.kind() == StudyKind::transient) {
-    facts.push_back(excitation_frequency(study));
-    for (results::Column& unit : frequency_unit_in_si(study)) facts.push_back(std::move(unit));
+  const mechanics::NetworkValues values = motion_values(study);
+  int rubbing = 0, hysteretic = 0;
+  for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
+    constexpr double any_frequency = 1.0;
+    const mechanics::ElementKind& kind = mechanics::kind_of(study.network.elements[e]);
+    const auto added = kind.adds(values.element[e], mechanics::second_value(values, e), any_frequency);
+    if (added.limit != 0.0) ++rubbing;
+    if (kind.depends_on_frequency && added.stiffness != 0.0) ++hysteretic;
   }
-  return facts;
+  GroupColumns facts;
+  facts.add_number("rubbing_elements", "1", rubbing);
+  facts.add_number("hysteretic_elements", "1", hysteretic);
+  facts.add_number("given_duration", "1", study.motion()->duration ? 1.0 : 0.0);
+  if (study.kind() == StudyKind::decay) return facts.take();
+  facts.add_number({"excitation_frequency", {}, {"as the study states it"}},
+                   study.dimensionless ? "1" : "rad s-1", values.omega);
+  const UsualUnit unit = frequency_unit_in_file(study);
+  if (unit.si_factor != 1.0) facts.add_number("frequency_unit", unit.text, unit.si_factor);
+  return facts.take();
 }
 
 // The page calls them signals next to the masses, whose quantities they share.
@@ -94,19 +53,14 @@ std::vector<results::Text> names_of_signals(const Study& study) {
 std::vector<results::Column> limit_bands(const Study& study) {
   const TuneChoice& tune = *study.tune();
   const std::vector<NamedLimit> named = named_limits(study, 0.0);
-  std::vector<results::Column> bands;
+  GroupColumns bands;
   for (std::size_t i = 0; i < tune.limits.size(); ++i) {
     if (!tune.limits[i].band || !tune.band) continue;
-    const auto add = [&](const char* end, double value) {
-      bands.push_back({.variable = {.name = named[i].name + "_band_" + end,
-                                    .unit = "1",
-                                    .long_name = "end of the part of the band over which the limit holds"},
-                       .values = {value / tune.band->unit.si_factor}});
-    };
-    add("from", tune.limits[i].band->from);
-    add("to", tune.limits[i].band->to);
+    const UsualUnit& unit = tune.band->unit;
+    bands.add_number({"*_band_from", named[i].name}, unit.text, tune.limits[i].band->from / unit.si_factor);
+    bands.add_number({"*_band_to", named[i].name}, unit.text, tune.limits[i].band->to / unit.si_factor);
   }
-  return bands;
+  return bands.take();
 }
 
 // Whether the response is in proportion to its excitation.
@@ -170,17 +124,16 @@ std::vector<results::Text> excitation_of_optimum(const Study& study) {
 
 }  // namespace
 
-std::vector<results::PageGroup> report_facts(const Study& study) {
-  std::vector<results::PageGroup> groups;
-  if (std::vector<results::Column> cranks = crank_motions(study); !cranks.empty())
-    groups.push_back({.name = "crank", .columns = std::move(cranks)});
-  if (study.motion() && !study.map())
-    groups.push_back({.name = "study", .columns = motion_facts(study), .texts = names_of_signals(study)});
-  if (study.sweep() && study.sweep()->profile)
-    groups.push_back(profile_group(study, *study.sweep()->profile));
-  if (study.kind() == StudyKind::tune)
-    groups.push_back({.name = "study", .columns = limit_bands(study), .texts = excitation_of_optimum(study)});
-  return groups;
+results::GroupContent study_facts(const Study& study) {
+  results::GroupContent facts{.path = "page/study"};
+  if (study.motion() && !study.map()) {
+    facts.columns = motion_facts(study);
+    facts.texts = names_of_signals(study);
+  } else if (study.kind() == StudyKind::tune) {
+    facts.columns = limit_bands(study);
+    facts.texts = excitation_of_optimum(study);
+  }
+  return facts;
 }
 
 }  // namespace frahm::studies

@@ -1,11 +1,11 @@
-#include "studies/program/report_profile.hpp"
+#include "studies/page/profile_group.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "studies/reading/parse_study.hpp"
 #include "tests/studies/small_studies.hpp"
 
-namespace report_profile_test {
+namespace profile_group_test {
 namespace {
 
 using namespace frahm::studies;
@@ -15,18 +15,18 @@ Study building(const std::string& report) {
   return parse_study(small_studies::building(4, 2, 5) + "[report]\n" + report, "building.toml");
 }
 
-results::PageGroup group_of(const Study& study) {
+results::GroupContent group_of(const Study& study) {
   return profile_group(study, *study.sweep()->profile);
 }
 
-std::string text_of(const results::PageGroup& group, const std::string& name) {
+std::string text_of(const results::GroupContent& group, const std::string& name) {
   for (const auto& [key, text] : group.texts)
     if (key == name) return text;
   return "no " + name;
 }
 
 TEST_CASE("a report's profile names its masses, the spring below each, and who owns quantities") {
-  const results::PageGroup group = group_of(building("profile = \"all\"\nheight = 3\n"));
+  const results::GroupContent group = group_of(building("profile = \"all\"\nheight = 3\n"));
   CHECK(text_of(group, "masses") == "floor1,floor2,floor3,floor4");
   CHECK(text_of(group, "springs") == "spring1,spring2,spring3,spring4");
   CHECK(
@@ -51,12 +51,12 @@ TEST_CASE("masses of a profile that no spring joins have none between them") {
 
 TEST_CASE("a profile is drawn from the peaks and strokes that are recorded") {
   const Study study = building("profile = [\"floor1\", \"floor2\"]\n");
-  results::MapLayout layout;
+  std::vector<results::Variable> recorded;
   for (const char* name : {"floor2_peak", "floor1_peak", "floor4_peak", "spring2_stroke", "spring3_stroke"})
-    layout.variables.push_back({.name = name, .unit = "1"});
-  CHECK(profile_quantities(study, *study.sweep()->profile, layout) ==
+    recorded.push_back({.name = name, .unit = "1"});
+  CHECK(profile_quantities(study, *study.sweep()->profile, recorded) ==
         std::vector<std::string>{"floor1_peak", "floor2_peak", "spring2_stroke"});
 }
 
 }  // namespace
-}  // namespace report_profile_test
+}  // namespace profile_group_test

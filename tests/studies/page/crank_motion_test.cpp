@@ -1,4 +1,4 @@
-#include "studies/motion/crank_motion.hpp"
+#include "studies/page/crank_motion.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

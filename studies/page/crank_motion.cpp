@@ -1,4 +1,4 @@
-#include "studies/motion/crank_motion.hpp"
+#include "studies/page/crank_motion.hpp"
 
 #include <fmt/format.h>
 
