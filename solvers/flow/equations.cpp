@@ -29,7 +29,7 @@ double fastest_rate(const mechanics::LinearSystem& system) {
 
 double step_length(double fastest_rate, double omega, int largest_order) {
   const double forcing_rate = std::max(1, largest_order) * omega;
-  double rate = fastest_rate;
+  double rate = fastest_rate > 0.0 ? fastest_rate : forcing_rate;
   while (rate < forcing_rate) rate *= std::numbers::sqrt2;
   return kStepRate / rate;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -38,10 +39,12 @@ struct StepEquations {
 
   double step = 0.0;    // h [s]
   double period = 0.0;  // of the fundamental, in steps
+  // The inverse and the roots of K with springs in the free directions that make them swing by 1 rad a step.
   typename S::Square M, C, K, M_inverse, K_inverse;
   typename S::Square M_root, K_root, M_root_inverse, K_root_inverse;  // upper Cholesky factors: M = R^T R
-  typename S::VectorByOscillators force;                              // f(t) = force * u(t) [N]
-  typename S::VectorByOscillators force_pull;                         // M^-1 force
+  bool has_free_masses = false;                   // some directions of the masses are free
+  typename S::VectorByOscillators force;          // f(t) = force * u(t) [N]
+  typename S::VectorByOscillators force_pull;     // M^-1 force
   typename S::VectorByOscillators applied_force;  // the part of it that acts on the masses from outside
   typename S::SupportsByOscillators motion, motion_velocity,
       motion_acceleration;             // y(t) of the prescribed nodes, without what a belt moves on
@@ -193,7 +196,7 @@ struct StepEquations {
     if constexpr (S::kInternal != 0) {
       energy += (z.tail(internal_forces()).array().square() / internal_stiffness.array()).sum();
     }
-    return std::sqrt(0.5 * energy);
+    return std::sqrt(0.5 * std::max(energy, 0.0));  // of free masses that are far away, below by rounding
   }
 };
 
@@ -204,7 +207,8 @@ struct StepEquations {
 double fastest_rate(const mechanics::LinearSystem& system);
 
 // Length of a step [s]: kStepRate over the fastest rate of system and forcing, the latter rounded up in
-// powers of sqrt(2) of the former so that the step stays the same over a range of frequencies.
+// powers of sqrt(2) of the former so that the step stays the same over a range of frequencies; of the latter
+// alone where nothing in the system has a rate.
 double step_length(double fastest_rate, double omega, int largest_order);
 
 // The longest step no longer than `step` of which `interval` has a whole number; step, where there is no

@@ -100,7 +100,8 @@ class Flow {
   double energy_scale(const typename S::State& z) const {
     return std::max(equations_.energy_norm(z), static_norm_);
   }
-  // The same for a state at `phase`, next to where recorded supports take it.
+  // The same for a state at `phase`, next to where recorded supports take it; of free masses, with what
+  // holds them at stops.
   double energy_scale(const typename S::State& z, double phase) const;
 
   // For all motions that are followed on this flow; and what a step and an event add to it [s].
@@ -162,6 +163,8 @@ class Flow {
   typename S::State stuck_force_form(const Mode<N, H>& mode, Eigen::Index contact) const;
 
  private:
+  double bent_energy(const typename S::State& z, double phase) const;
+  double energy_scale_beside(const typename S::State& z, double phase) const;
   std::vector<const HeldContacts*> held_along(const TangentPath& path) const;
   void turn_oscillators(const Instant<N, H>& from, Instant<N, H>& to) const;
   void expand_oscillators(const Instant<N, H>& at, Expansion<N, H>& x) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "solvers/flow/configuration_setup.hpp"
 #include "solvers/flow/flow.hpp"
@@ -148,6 +149,29 @@ typename Sizes<N, H>::State Flow<N, H>::state_within(const Segment<N, H>& segmen
 
 template <int N, int H>
 double Flow<N, H>::energy_scale(const typename S::State& z, double phase) const {
+  const StepEquations<N, H>& eq = equations_;
+  if (eq.has_free_masses) return std::hypot(energy_scale_beside(z, phase), std::sqrt(bent_energy(z, phase)));
+  return energy_scale_beside(z, phase);
+}
+
+// The energy [J] of what is bent beyond its place and stiffens, which holds masses that are free otherwise.
+template <int N, int H>
+double Flow<N, H>::bent_energy(const typename S::State& z, double phase) const {
+  const StepBends<N, H>& bends = equations_.bends;
+  typename S::Oscillators u(equations_.oscillators());
+  equations_.oscillators_at(phase, orders_, u);
+  double energy = 0.0;
+  for (Eigen::Index j = 0; j < bends.count(); ++j) {
+    if (contains(bends.of_velocity, j) || bends.stiffness[j] <= 0.0) continue;
+    const double past =
+        bends.B.col(j).dot(z.head(equations_.masses())) + bends.motion.row(j).dot(u) - bends.place[j];
+    if (past > 0.0) energy += 0.5 * bends.stiffness[j] * past * past;
+  }
+  return energy;
+}
+
+template <int N, int H>
+double Flow<N, H>::energy_scale_beside(const typename S::State& z, double phase) const {
   const StepEquations<N, H>& eq = equations_;
   if (eq.quasi_static.cols() == 0) return energy_scale(z);
   typename S::Oscillators u(eq.oscillators());

@@ -7,6 +7,7 @@
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
 #include "solvers/flow/flow.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 
 // Bodies of Flow: the equations of a system and of its forcing, with time counted in steps.
 namespace frahm::periodic {
@@ -86,9 +87,12 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.C = system.C / h;
   eq.K = system.K;
   eq.M_inverse = eq.M.inverse();
-  eq.K_inverse = eq.K.inverse();
+  eq.has_free_masses = system.free_directions.cols() > 0;
+  typename S::Square held = eq.K;
+  if (eq.has_free_masses) held = mechanics::held_stiffness(system, 1.0 / h);
+  eq.K_inverse = held.inverse();
   eq.M_root = algebra::upper_root(eq.M);
-  eq.K_root = algebra::upper_root(eq.K);
+  eq.K_root = algebra::upper_root(held);
   eq.M_root_inverse = eq.M_root.inverse();
   eq.K_root_inverse = eq.K_root.inverse();
   eq.W = system.W;

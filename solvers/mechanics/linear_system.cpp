@@ -9,6 +9,7 @@
 
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 #include "solvers/mechanics/recorded_columns.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/smooth_laws.hpp"
@@ -70,8 +71,11 @@ Incidence incidence(const Network& network, const Element& element) {
   return incidence(network, element.along);
 }
 
-Assembly::Assembly(const Network& network)
-    : network_(network), shares_(network.elements.size()), internal_(network.elements.size(), -1) {
+Assembly::Assembly(const Network& network, FreeMasses free)
+    : network_(network),
+      free_(free),
+      shares_(network.elements.size()),
+      internal_(network.elements.size(), -1) {
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Element& element = network_.elements[e];
     const ElementKind& kind = kind_of(element);
@@ -86,7 +90,20 @@ Assembly::Assembly(const Network& network)
   bends_ = place_bends(network_, incidences_);
   place_orders();
   weigh_support_force();
+  if (free_ == FreeMasses::allowed) clean_floating_matrices();
   add_up_matrices();
+}
+
+// Where all springs together leave masses free, what is rounding in the matrices must not hold them either.
+void Assembly::clean_floating_matrices() {
+  if (network_.matrices.empty()) return;
+  LinearSystem every_spring;
+  const auto n = static_cast<Eigen::Index>(network_.masses.size());
+  every_spring.M.setIdentity(n, n);
+  for (const Element& element : network_.elements)
+    every_spring.coefficients.push_back({.stiffness = kind_of(element).holds ? 1.0 : 0.0});
+  if (mechanics::find_free_directions(*this, every_spring).cols() == 0) return;
+  for (MatrixPart& part : network_.matrices) part.stiffness = without_rounding(part.stiffness);
 }
 
 void Assembly::add_up_matrices() {
@@ -244,10 +261,22 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
                             "a mass of zero needs an inerter that moves with it; a spring and a slider in "
                             "series are one jenkins element",
                             network_);
-  require_positive_definite(system.K, "stiffness",
-                            "some motion is held by no spring, or a negative stiffness is too large",
-                            network_);
+  check_stiffness(system);
   set_structural_damping(*this, values.damping, system);
+}
+
+void Assembly::check_stiffness(LinearSystem& system) const {
+  system.free_directions.resize(system.masses(), 0);
+  if (free_ == FreeMasses::refused) {
+    require_positive_definite(system.K, "stiffness",
+                              "some motion is held by no spring, or a negative stiffness is too large",
+                              network_);
+    return;
+  }
+  system.free_directions = mechanics::find_free_directions(*this, system);
+  const bool any = system.free_directions.cols() > 0;
+  require_positive_definite(any ? held_stiffness(system) : system.K, "stiffness",
+                            "a negative stiffness is too large", network_);
 }
 
 // One response alone follows the symmetry of its system.

@@ -69,7 +69,10 @@ struct ElementCoefficients {
 // Shapes: M, C, K n x n; M_support, C_support, K_support n x p; W n x m; W_support p x m; D n x s; D_support
 // p x s.
 struct LinearSystem {
-  double omega = 0.0;    // [rad/s]
+  double omega = 0.0;  // [rad/s]
+  // R: a basis of the directions in which no spring holds the masses, n x r with R^T M R = 1; without columns
+  // where K is positive definite (free_directions.hpp).
+  Eigen::MatrixXd free_directions;
   Eigen::MatrixXd mass;  // of the nodes and of matrices, without inerters, n x n [kg], of rotations [kg m2]
   Eigen::MatrixXd M, C, K;
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
@@ -116,15 +119,21 @@ struct LinearSystem {
   Eigen::Index internal_forces() const { return internal_stiffness.size(); }
 };
 
+// Whether masses may be held by no spring: then K is positive definite but for the free directions, in which
+// it is zero. Only a motion from initial values needs no more.
+enum class FreeMasses { refused, allowed };
+
 // Builds LinearSystems of one network. Topology is worked out once; `set_values` and `set_forcing` only fill
 // numbers in and do not allocate after the first call.
 class Assembly {
  public:
-  explicit Assembly(const Network& network);  // keeps a copy; throws MechanicsError
+  // Keeps a copy. Throws MechanicsError.
+  explicit Assembly(const Network& network, FreeMasses free = FreeMasses::refused);
 
   // Element and mass values -> matrices, internal forces and contact limits. Hysteretic elements make them
   // depend on omega, see matrices_depend_on_frequency().
-  // Throws MechanicsError where a value is out of range or M or K is not positive definite.
+  // Throws MechanicsError where a value is out of range, M is not positive definite, or K is not: of free
+  // masses that are allowed, beside the free directions.
   void set_values(const NetworkValues& values, LinearSystem& system) const;
 
   // The friction of contacts alone, where nothing else has changed since set_values.
@@ -147,6 +156,8 @@ class Assembly {
  private:
   void place_in_contact(std::size_t element);
   void add_up_matrices();
+  void clean_floating_matrices();
+  void check_stiffness(LinearSystem& system) const;
   void place_orders();
   void weigh_support_force();
   void check_values(const NetworkValues& values) const;
@@ -154,6 +165,7 @@ class Assembly {
   void add_crank(const Excitation& excitation, const ExcitationValue& value, LinearSystem& system) const;
 
   Network network_;
+  FreeMasses free_;
   std::vector<Incidence> incidences_;
   std::vector<ContactShare> shares_;
   std::vector<Eigen::Index> internal_;  // of each element: index of its internal force, -1: none

@@ -1,10 +1,12 @@
 #include "solvers/mechanics/modes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/symmetric_modes.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -16,6 +18,7 @@ double damping_ratio(const mechanics::LinearSystem& system, const Eigen::VectorX
   const Eigen::ArrayXd rate = system.internal_rate.array();
   const Eigen::VectorXd dampers = system.internal_stiffness.array() * rate / (omega * omega + rate * rate);
   const Eigen::VectorXd strain = system.D.transpose() * shape;
+  if (omega == 0.0) return kNone;
   const double loss = shape.dot(system.C * shape) + strain.dot(dampers.asDiagonal() * strain);
   return loss / (2.0 * omega * shape.dot(system.M * shape));
 }
@@ -24,7 +27,7 @@ double damping_ratio(const mechanics::LinearSystem& system, const Eigen::VectorX
 
 void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
               std::vector<double>& damping) {
-  const algebra::SymmetricModes modes = algebra::symmetric_modes(system.K, system.M);
+  const algebra::SymmetricModes modes = mechanics::undamped_modes_of(system);
   frequency.clear();
   damping.clear();
   for (Eigen::Index k = 0; k < system.masses(); ++k) {
@@ -75,14 +78,15 @@ void modes_derivative(const mechanics::LinearSystem& system, const mechanics::Li
 }
 
 LinearModes linear_modes(const mechanics::Network& network, const mechanics::NetworkValues& values,
-                         bool all_stuck) {
-  const mechanics::Assembly assembly(network);
+                         bool all_stuck, mechanics::FreeMasses free) {
+  const mechanics::Assembly assembly(network, free);
   mechanics::LinearSystem system;
   assembly.set_values(values, system);
   const Eigen::Index n = system.masses();
   // Motions while every contact sticks: displacements B eta with W^T B = 0 of the held contacts. The springs
   // after the other contacts act.
-  Eigen::MatrixXd K = system.K;
+  Eigen::MatrixXd K = system.K, strained(0, n);
+  if (system.free_directions.cols() > 0) strained = mechanics::strained_combinations(assembly, system);
   std::vector<Eigen::Index> held;
   for (Eigen::Index j = 0; all_stuck && j < system.contacts(); ++j) {
     const auto contact = static_cast<std::size_t>(j);
@@ -92,12 +96,17 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
       const Eigen::Index internal = system.contact_internal[contact];
       const Eigen::VectorXd d = system.D.col(internal);
       K += system.internal_stiffness[internal] * d * d.transpose();
+      strained.conservativeResize(strained.rows() + 1, n);
+      strained.bottomRows(1) = d.transpose();
     }
   }
   const Eigen::MatrixXd B = algebra::null_space(system.W(Eigen::all, held).transpose());
   if (B.cols() == 0) return {};
-  const algebra::SymmetricModes modes =
-      algebra::symmetric_modes(B.transpose() * K * B, B.transpose() * system.M * B);
+  const Eigen::MatrixXd K_B = B.transpose() * K * B, M_B = B.transpose() * system.M * B;
+  Eigen::MatrixXd free_B(B.cols(), 0);
+  if (system.free_directions.cols() > 0)
+    free_B = mechanics::free_within(strained * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()), M_B);
+  const algebra::SymmetricModes modes = mechanics::modes_with_free(K_B, M_B, free_B);
   LinearModes result;
   for (Eigen::Index k = 0; k < B.cols(); ++k) {
     Eigen::VectorXd shape = B * modes.vectors.col(k);
@@ -107,9 +116,20 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
     Eigen::Index largest = 0;
     shape.cwiseAbs().maxCoeff(&largest);
     shape /= shape[largest];
+    if (omega == 0.0) shape.array() += 0.0;  // no -0
     result.shape.emplace_back(shape.data(), shape.data() + n);
   }
   return result;
+}
+
+double lowest_frequency(const std::vector<double>& frequencies) {
+  const auto lowest = std::ranges::find_if(frequencies, [](double omega) { return omega > 0.0; });
+  return lowest == frequencies.end() ? kNone : *lowest;
+}
+
+double lowest_frequency(const mechanics::Network& network, const mechanics::NetworkValues& values,
+                        mechanics::FreeMasses free) {
+  return lowest_frequency(linear_modes(network, values, false, free).frequency);
 }
 
 }  // namespace frahm::periodic

@@ -6,6 +6,7 @@
 
 #include "solvers/algebra/solve.hpp"
 #include "solvers/algebra/symmetric_modes.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 #include "solvers/mechanics/rotation.hpp"
 
 namespace frahm::mechanics {
@@ -52,14 +53,15 @@ void check_determined(const std::vector<double>& ratios, const Eigen::VectorXd& 
   }
 }
 
-// C_d = (M Phi) diag(2 zeta_i omega_i) (M Phi)^T
+// C_d = (M Phi) diag(2 zeta_i omega_i) (M Phi)^T of the modes that oscillate.
 MatrixXd modal_damping(const LinearSystem& system, const std::vector<double>& ratios) {
-  const algebra::SymmetricModes modes = algebra::symmetric_modes(system.K, system.M);
-  const Eigen::VectorXd omega = modes.values.cwiseSqrt();
+  const algebra::SymmetricModes modes = undamped_modes_of(system);
+  const Index elastic = system.masses() - system.free_directions.cols();
+  const Eigen::VectorXd omega = modes.values.tail(elastic).cwiseSqrt();
   check_determined(ratios, omega);
   Eigen::VectorXd damping(omega.size());
   for (Index i = 0; i < omega.size(); ++i) damping[i] = 2.0 * ratio_of(ratios, i) * omega[i];
-  const MatrixXd M_phi = system.M * modes.vectors;
+  const MatrixXd M_phi = system.M * modes.vectors.rightCols(elastic);
   return M_phi * damping.asDiagonal() * M_phi.transpose();
 }
 
@@ -147,8 +149,9 @@ void set_structural_damping(const Assembly& assembly, const std::vector<double>&
   const Index n = system.K.rows(), size = n + 1 + system.K_support.cols();
   system.structural_damping.setZero(size, size);
   if (network.damping != DampingModel::none) {
-    const MatrixXd T =
-        relative_motion(algebra::solve_positive(system.K, stiffness_to_ends(assembly, system)));
+    // What springs exert strains no free direction: any stiffness there gives the same.
+    const MatrixXd K = system.free_directions.cols() > 0 ? held_stiffness(system) : system.K;
+    const MatrixXd T = relative_motion(algebra::solve_positive(K, stiffness_to_ends(assembly, system)));
     system.structural_damping = T.transpose() * damping_of(network, values, system) * T;
   }
   if (const MatrixXd& C = assembly.matrices().damping; C.size() > 0)

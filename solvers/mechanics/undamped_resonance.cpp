@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "solvers/algebra/symmetric_modes.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -79,9 +80,9 @@ std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) 
   if (damped.info() == Eigen::Success && damped.matrixLLT().diagonal().minCoeff() > 1e-7 * std::sqrt(scale))
     return result;
 
-  const algebra::SymmetricModes modes = algebra::symmetric_modes(system.K, system.M);
+  const algebra::SymmetricModes modes = mechanics::undamped_modes_of(system);
   const Eigen::VectorXd& squares = modes.values;
-  for (Eigen::Index first = 0; first < n;) {
+  for (Eigen::Index first = system.free_directions.cols(); first < n;) {
     Eigen::Index last = first + 1;
     while (last < n && squares[last] - squares[first] <= 1e-12 * squares[last]) ++last;
     const Eigen::MatrixXd shapes = modes.vectors.middleCols(first, last - first);

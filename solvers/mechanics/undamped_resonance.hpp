@@ -13,8 +13,8 @@ struct UndampedMode {
   Eigen::VectorXd shape;
 };
 
-// All undamped modes of a system with its friction sliding, at velocities beyond the points of its dampers'
-// tables. For several modes of one frequency: a basis of their undamped combinations.
+// All undamped modes of a system that oscillate, with its friction sliding, at velocities beyond the points
+// of its dampers' tables. For several modes of one frequency: a basis of their undamped combinations.
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system);
 
 // Whether an undamped mode is driven at its resonance harder than friction can hold: n omega = omega_phi to

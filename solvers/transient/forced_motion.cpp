@@ -7,6 +7,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 #include "solvers/transient/driven_motion.hpp"
 #include "solvers/transient/motion_measurement.hpp"
 #include "solvers/transient/record_course.hpp"
@@ -124,7 +125,7 @@ double own_frequency(const Problem& problem) {
   if (problem.assembly.network().masses.size() != 1) return kNone;
   mechanics::LinearSystem system;
   problem.assembly.set_values(problem.values_at(problem.options.from), system);
-  return std::sqrt(system.K(0, 0) / system.M(0, 0));
+  return std::sqrt(std::max(0.0, system.K(0, 0)) / system.M(0, 0));
 }
 
 // The motion with so many stairs, 0 for one frequency.
@@ -215,9 +216,21 @@ int first_stairs(const Problem& problem) {
 
 }  // namespace
 
+double stepping_frequency(const mechanics::Assembly& assembly, const mechanics::NetworkValues& values,
+                          const ForcedOptions& options) {
+  constexpr double kSteps = 1000.0;
+  const auto& excitations = assembly.network().excitations;
+  const bool oscillates = std::ranges::any_of(excitations, [](const auto& each) { return each.order > 0; });
+  if (oscillates || assembly.matrices_depend_on_frequency() || !mechanics::has_free_masses(assembly, values))
+    return options.from;
+  return kSteps * periodic::kStepRate / options.duration;
+}
+
 ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
-                           const InitialState& initial, const ForcedOptions& options) {
-  const mechanics::Assembly assembly(network);
+                           const InitialState& initial, const ForcedOptions& asked) {
+  const mechanics::Assembly assembly(network, mechanics::FreeMasses::allowed);
+  ForcedOptions options = asked;
+  options.from = stepping_frequency(assembly, values_at(asked.from), asked);
   const Problem problem{assembly, values_at,           initial,
                         options,  running_of(options), course_of(network, options)};
   if (problem.running.time == 0.0) return run(problem, 0);

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/network.hpp"
 #include "solvers/transient/motion.hpp"
 #include "solvers/transient/motion_quantity.hpp"
@@ -48,6 +49,12 @@ struct ForcedMotion {
   std::vector<double> numbers = {};                 // of the quantities asked for
   std::vector<std::vector<Extremum>> extrema = {};  // of each mass, then of each signal; empty: not asked for
 };
+
+// The frequency [rad/s] that limits the length of a step. It is options.from; but where nothing in the
+// excitation oscillates it means nothing else, and free masses may have no rate of their own: then it is one
+// of which the duration has a thousand steps.
+double stepping_frequency(const mechanics::Assembly& assembly, const mechanics::NetworkValues& values,
+                          const ForcedOptions& options);
 
 // The flow is exact at constant frequency. A run-up is cut into stairs of constant frequency each, that of
 // their middle, so that the phase is exact at every stair's ends but for a constant,

@@ -1,12 +1,15 @@
 #include "solvers/transient/free_decay.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/algebra/symmetric_modes.hpp"
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/transient/trajectory.hpp"
@@ -21,15 +24,90 @@ constexpr double kPassagePeriods = 0.37;
 // The part of its initial energy norm at which a creeping motion counts as arrived.
 constexpr double kArrived = 1e-12;
 
-struct Decaying {
-  mechanics::LinearSystem system;
-  double lowest = 0.0;  // natural frequency [rad/s]
-  bool all_damped = false;
+// [s]
+double period_of(double rate) {
+  return 2.0 * std::numbers::pi / rate;
+}
 
-  double period() const { return 2.0 * std::numbers::pi / lowest; }  // [s]
+// Times in which a motion changes: the shortest one, by which it is followed, and the longest [s]; infinite
+// and 0: none.
+struct Paces {
+  double shortest = kInfinity, longest = 0.0;
+
+  void add(double time) {
+    shortest = std::min(shortest, time);
+    longest = std::max(longest, time);
+  }
+  bool any() const { return longest > 0.0; }
 };
 
-Decaying set_up(const mechanics::Assembly& assembly, mechanics::NetworkValues& values) {
+struct Decaying {
+  mechanics::LinearSystem system;
+  Paces paces;
+  bool all_damped = false;
+
+  double period() const { return paces.shortest; }
+  bool has_free_masses() const { return system.free_directions.cols() > 0; }
+};
+
+// Of masses that no spring holds or joins: those of the dampers, C phi = rate M phi, where Maxwell elements
+// yield as dampers do, and of the contacts, that in which each would stop a motion of this energy [J].
+Paces paces_of_stopping(const mechanics::LinearSystem& system, double energy) {
+  constexpr double kNoRate = 1e-15;  // of the largest: rounding
+  Paces paces;
+  const Eigen::VectorXd dampers =
+      (system.internal_rate.array() > 0.0)
+          .select(system.internal_stiffness.cwiseQuotient(system.internal_rate), 0.0);
+  Eigen::MatrixXd C = system.C + system.D * dampers.asDiagonal() * system.D.transpose();
+  for (Eigen::Index j = 0; j < system.bends.count(); ++j) {
+    if (system.bends.law[static_cast<std::size_t>(j)]->of_velocity)
+      C += std::abs(system.bends.damping[j]) * system.bends.W.col(j) * system.bends.W.col(j).transpose();
+  }
+  const Eigen::VectorXd rates = algebra::symmetric_values(C, system.M);
+  for (const double rate : rates)
+    if (rate > kNoRate * rates.maxCoeff()) paces.add(period_of(rate));
+  const Eigen::MatrixXd mobility = system.M.llt().solve(system.W);
+  for (Eigen::Index j = 0; j < system.contacts(); ++j) {
+    const double compliance = system.W.col(j).dot(mobility.col(j));
+    if (system.limit[j] > 0.0)  // of a motion that never begins any time will do
+      paces.add(energy > 0.0 ? std::sqrt(2.0 * energy / compliance) / system.limit[j] : 1.0);
+  }
+  return paces;
+}
+
+// The energy [J] of a start of masses that no spring holds: of their velocities, and of stops that are
+// touched.
+double energy_of(const mechanics::LinearSystem& system, const InitialState& initial) {
+  const Eigen::Index n = system.masses();
+  const auto vector = [&](const std::vector<double>& values) {
+    if (static_cast<Eigen::Index>(values.size()) != n) return Eigen::VectorXd(Eigen::VectorXd::Zero(n));
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), n));
+  };
+  const Eigen::VectorXd q = vector(initial.displacement), v = vector(initial.velocity);
+  double energy = 0.5 * v.dot(system.M * v);
+  for (Eigen::Index j = 0; j < system.bends.count(); ++j) {
+    const double past = system.bends.W.col(j).dot(q) - system.bends.place[j];
+    if (past > 0.0) energy += 0.5 * std::abs(system.bends.stiffness[j]) * past * past;
+  }
+  return energy;
+}
+
+// Where nothing oscillates the step is a part of the shortest of these times and of a given duration.
+Paces paces_of(const mechanics::LinearSystem& system, double lowest, const InitialState& initial,
+               double duration) {
+  constexpr double kPart = 0.01;
+  Paces paces;
+  if (lowest > 0.0) {
+    paces.add(period_of(lowest));
+    return paces;
+  }
+  paces = paces_of_stopping(system, energy_of(system, initial));
+  if (duration > 0.0) paces.add(kPart * duration);
+  return paces;
+}
+
+Decaying set_up(const mechanics::Assembly& assembly, mechanics::NetworkValues& values,
+                const InitialState& initial, double duration) {
   Decaying decaying;
   const bool given = values.hysteretic_omega > 0.0;
   values.omega = 1.0;
@@ -37,10 +115,17 @@ Decaying set_up(const mechanics::Assembly& assembly, mechanics::NetworkValues& v
   assembly.set_values(values, decaying.system);
   std::vector<double> frequencies, damping;
   periodic::modes_of(decaying.system, frequencies, damping);
-  decaying.lowest = values.omega = frequencies.front();
+  const double lowest = periodic::lowest_frequency(frequencies);
+  decaying.paces = paces_of(decaying.system, lowest, initial, duration);
+  if (!decaying.paces.any())
+    throw mechanics::MechanicsError(
+        "no spring makes the masses oscillate, and no damper or friction brings them to rest: the decay "
+        "needs "
+        "a duration");
+  values.omega = lowest > 0.0 ? lowest : period_of(decaying.paces.shortest);
   if (!given) {
-    values.hysteretic_omega = decaying.lowest;
-    assembly.set_values(values, decaying.system);
+    values.hysteretic_omega = lowest;  // none: what has a loss factor has no stiffness
+    if (lowest > 0.0) assembly.set_values(values, decaying.system);
   }
   assembly.set_forcing(values, decaying.system);
   decaying.all_damped = periodic::undamped_modes(decaying.system).empty();
@@ -54,9 +139,9 @@ struct Ending {
 };
 
 // [s] At most so far.
-double last_time(double duration, double period, double step) {
+double last_time(double duration, double longest, double step) {
   const double steps = duration > 0.0 ? kStepsBeyond : kStepsByDefault;
-  return std::max(duration, std::min(kMostPeriods * period, duration + steps * step));
+  return std::max(duration, std::min(kMostPeriods * longest, duration + steps * step));
 }
 
 bool has_reached(const Trajectory& trajectory, double time) {
@@ -70,7 +155,7 @@ std::optional<DecayEnd> seen_end(const Trajectory& trajectory, double left) {
   // The contact still slides ever less where its own friction would hold it.
   if (trajectory.friction_slides()) {
     if (left <= kArrived) return DecayEnd::creeping;
-  } else if (left <= kDecayed) {
+  } else if (left <= kDecayed && trajectory.goes_on_freely()) {
     return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::decayed;
   }
   return std::nullopt;
@@ -78,9 +163,12 @@ std::optional<DecayEnd> seen_end(const Trajectory& trajectory, double left) {
 
 // Follows the motion to a given duration, and beyond it for a while until it is clear how it ends.
 Ending march(const Decaying& decaying, double duration, Trajectory& trajectory) {
-  const double period = decaying.period(), last = last_time(duration, period, trajectory.step());
-  const double start_norm = trajectory.energy_norm();
+  const double period = decaying.period();
+  const double last = last_time(duration, decaying.paces.longest, trajectory.step());
   Ending ending{.energy = trajectory.energy_budget()};
+  // What holds free masses at stops has energy too.
+  const double start_norm =
+      decaying.has_free_masses() ? std::sqrt(ending.energy.initial) : trajectory.energy_norm();
   while (!has_reached(trajectory, last)) {
     const bool within = !has_reached(trajectory, duration) || duration == 0.0;
     const double next = within && duration > 0.0 ? duration : last;
@@ -99,7 +187,7 @@ Ending march(const Decaying& decaying, double duration, Trajectory& trajectory) 
     const std::optional<DecayEnd> end = seen_end(trajectory, left);
     if (!end) continue;
     ending.end = *end;
-    const bool gone = !trajectory.friction_slides() && left <= kGone;
+    const bool gone = !decaying.has_free_masses() && !trajectory.friction_slides() && left <= kGone;
     if (gone) trajectory.come_to_rest();
     const bool settled = trajectory.friction_slides() || trajectory.is_at_rest();
     if (settled || gone || has_reached(trajectory, duration)) return ending;
@@ -134,16 +222,28 @@ std::vector<double> log_decrements(const std::vector<Extremum>& extrema) {
   return result;
 }
 
-void tell_masses(const mechanics::Network& network, const Trajectory& trajectory, bool tends_somewhere,
-                 FreeDecay& decay) {
+// Whether free masses have a share in a coordinate.
+bool is_free(const mechanics::LinearSystem& system, const Eigen::VectorXd& w) {
+  constexpr double kRounding = 1e-12;
+  const Eigen::MatrixXd& R = system.free_directions;
+  for (Eigen::Index k = 0; k < R.cols(); ++k)
+    if (std::abs(w.dot(R.col(k))) > kRounding * w.cwiseAbs().dot(R.col(k).cwiseAbs())) return true;
+  return false;
+}
+
+void tell_masses(const mechanics::Network& network, const mechanics::LinearSystem& system,
+                 const Trajectory& trajectory, bool tends_somewhere, FreeDecay& decay) {
   const Eigen::VectorXd rest = trajectory.tends_to().head(static_cast<Eigen::Index>(network.masses.size()));
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
     DecayOfMass& mass = decay.masses[i];
     for (const Extremum& extremum : trajectory.turning_points(i).extrema()) {
       if (extremum.time <= decay.duration * (1.0 + 1e-12)) mass.extrema.push_back(extremum);
     }
-    mass.log_decrement = log_decrements(mass.extrema);
-    mass.rest = tends_somewhere ? mechanics::coordinate_incidence(network, i).w.dot(rest) : kNone;
+    const Eigen::VectorXd w = mechanics::coordinate_incidence(network, i).w;
+    mass.log_decrement =
+        is_free(system, w) ? std::vector<double>(mass.extrema.size(), kNone) : log_decrements(mass.extrema);
+    mass.drift = tends_somewhere ? trajectory.drift(w) : kNone;
+    mass.rest = mass.drift == 0.0 ? w.dot(rest) : kNone;
   }
 }
 
@@ -160,11 +260,23 @@ double found_duration(const Decaying& decaying, const Trajectory& trajectory, co
 
 }  // namespace
 
+bool has_no_end(const mechanics::Network& network, const mechanics::NetworkValues& values) {
+  const mechanics::Assembly assembly(network, mechanics::FreeMasses::allowed);
+  mechanics::NetworkValues here = values;
+  if (!(here.hysteretic_omega > 0.0)) here.hysteretic_omega = 1.0;
+  mechanics::LinearSystem system;
+  assembly.set_values(here, system);
+  std::vector<double> frequencies, damping;
+  periodic::modes_of(system, frequencies, damping);
+  return !(periodic::lowest_frequency(frequencies) > 0.0) && !paces_of_stopping(system, 0.0).any();
+}
+
 FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues values,
                      const InitialState& initial, const DecayOptions& options) {
-  const mechanics::Assembly assembly(network);
-  const Decaying decaying = set_up(assembly, values);
+  const mechanics::Assembly assembly(network, mechanics::FreeMasses::allowed);
+  const Decaying decaying = set_up(assembly, values, initial, options.duration);
   FreeDecay decay;
+  decay.has_free_masses = decaying.has_free_masses();
   decay.hysteretic_omega = values.hysteretic_omega;
   decay.masses.resize(mechanics::coordinate_count(network));
 
@@ -188,7 +300,7 @@ FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues
       assembly.bends().count() == 0 && (assembly.contacts() == 0 || decaying.system.limit.isZero(0.0));
   const bool tends_somewhere =
       decay.end == DecayEnd::cut_off ? linear && decaying.all_damped : decay.end != DecayEnd::failed;
-  tell_masses(network, trajectory, tends_somewhere, decay);
+  tell_masses(network, decaying.system, trajectory, tends_somewhere, decay);
   if (options.samples == 0 || decay.end == DecayEnd::failed) return decay;
   trajectory.finish();
   decay.history =

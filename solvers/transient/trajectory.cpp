@@ -55,6 +55,7 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
 void Trajectory::set_system(const mechanics::LinearSystem& system, double phase) {
   const double energy = has_started() ? energy_now() : 0.0;
   flow_.set_system(system);
+  if (system.free_directions.cols() > 0 && kept_.rest) system_ = system;
   take_forcing(system, phase, energy);
 }
 
@@ -112,6 +113,7 @@ void Trajectory::start(const InitialState& initial) {
   set(initial.velocity, n, eq.step, "velocity");
   deceleration_.setZero(eq.contacts());
   acceleration_.setZero(n);
+  largest_speed_ = z_.segment(n, n).cwiseAbs();
   account_.open(energy_now());
 }
 
@@ -150,6 +152,7 @@ bool Trajectory::pass(double length, double phase) {
   for (Step& step : steps_.steps()) follow(step);
   z_ = passage_.end;
   phase_ = phase + length * flow_.fundamental_rate();
+  if (flow_.equations().has_free_masses && kept_.rest) note_speeds();
   return true;
 }
 

@@ -55,7 +55,7 @@ class Trajectory {
   bool can_last(double duration);
   const char* failure() const { return failure_; }
 
-  // Sets all masses at rest where they tend to: for a motion that has died away.
+  // Sets all masses at rest where they tend to: for a motion that has died away and does not drift.
   void come_to_rest();
 
   // Fills the samples that are left with the state now.
@@ -67,16 +67,22 @@ class Trajectory {
   // For a mass or signal (mechanics/coordinates.hpp) now [m].
   double displacement(std::size_t coordinate) const;
   double energy_norm() const { return flow_.equations().energy_norm(z_); }  // [sqrt(J)]
-  // The energy norm of the state's distance from where its mode would come to rest [sqrt(J)].
+  // The energy norm of the state's distance from where its mode would come to rest, or from its steady drift
+  // [sqrt(J)].
   double distance_from_rest() const;
+  // Of a motion that dies away: no stop or point of a table lies on what is left of its way.
+  bool goes_on_freely() const;
   bool friction_slides() const;              // some contact with friction slides now
   bool is_at_rest() const;                   // all masses are held, and nothing changes any more
   bool has_crept() const { return crept_; }  // a contact's velocity died away without ever reaching zero
   double held_since() const { return held_since_; }  // [s], of all masses; NaN: some mass is free
 
   // Where the masses are at rest, or tend to while the contacts stick and slide as they do: the state there,
-  // displacements [m] first.
+  // displacements [m] first. Free masses that drift have their velocity then, and their place now.
   Flow::S::State tends_to() const;
+  // The velocity of a mass or signal [m/s] at which it drifts in the end, by w of its incidence; 0 of one
+  // that comes to rest.
+  double drift(const Eigen::VectorXd& w) const;
 
   const TurningPoints& turning_points(std::size_t coordinate) const { return turning_points_[coordinate]; }
   const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
@@ -107,6 +113,9 @@ class Trajectory {
   void keep_signals(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u);
   Oscillators oscillators_now() const;
   State resting_state(const State& z) const;
+  State resting_state_of_free(const State& z) const;
+  std::vector<double> bent(const Eigen::VectorXd& of_bends) const;
+  void note_speeds();
 
   const mechanics::Assembly& assembly_;
   Flow flow_;
@@ -129,6 +138,8 @@ class Trajectory {
   bool has_mode_ = false;
   periodic::ContactMask stuck_ = 0, positive_ = 0, beyond_ = 0;
   Eigen::MatrixXd free_directions_;  // of the masses, while these contacts stick
+  mechanics::LinearSystem system_;   // of free masses
+  Eigen::VectorXd largest_speed_;    // of each mass at the ends of passages [m a step], of free masses
   Eigen::VectorXd deceleration_;     // of each sliding contact at the end of the step before [m a step^2]
   bool crept_ = false;
   State creeps_to_;    // [m]

@@ -1,10 +1,12 @@
 // What sticks in a motion, and where it comes to rest.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 #include "solvers/transient/step_limits.hpp"
 #include "solvers/transient/trajectory.hpp"
 
@@ -82,6 +84,7 @@ void Trajectory::come_to_rest() {
 // and of the internal forces s_i = s_0 + k D_i^T (q - q_0) where a slider sticks, 0 where a damper lets go.
 Trajectory::State Trajectory::resting_state(const State& z) const {
   const auto& eq = flow_.equations();
+  if (eq.has_free_masses) return resting_state_of_free(z);
   const Index n = eq.masses();
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(eq.internal_forces()), s = stiffness;
   // If nothing sticks any start is right, and zero is free of rounding.
@@ -115,12 +118,140 @@ Trajectory::State Trajectory::resting_state(const State& z) const {
   return rest;
 }
 
+// The largest speeds so far, of which the rounding of a momentum is a part.
+void Trajectory::note_speeds() {
+  const Index n = flow_.equations().masses();
+  largest_speed_ = largest_speed_.cwiseMax(z_.segment(n, n).cwiseAbs());
+}
+
+// Of each element, the sum of a number over those of its bends that are beyond their places.
+std::vector<double> Trajectory::bent(const Eigen::VectorXd& of_bends) const {
+  std::vector<double> sum(system_.coefficients.size(), 0.0);
+  for (Index j = 0; j < of_bends.size(); ++j) {
+    if (contains(beyond_, j)) sum[system_.bends.element[static_cast<std::size_t>(j)]] += of_bends[j];
+  }
+  return sum;
+}
+
+// As above, but some directions R of the masses that are not held strain nothing. Along these, while no force
+// acts, the momentum and what dampers and Maxwell elements take up are constant,
+//   R^T (M q' + C q - D s/rate + D (k/rate) D^T q) = const,
+// which gives where the masses come to rest in those that are damped; in the others, U, they drift on with
+// U^T M q'. Where a force acts along R, that of friction, the masses are still to be stopped: at rest where
+// they are now is the best that can be said.
+Trajectory::State Trajectory::resting_state_of_free(const State& z) const {
+  constexpr double kRounding = 1e-11;  // of a momentum, after millions of steps
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses(), internal = eq.internal_forces();
+  const Eigen::VectorXd q = z.head(n), v = z.segment(n, n), s_now = z.tail(internal);
+  Eigen::MatrixXd strained =
+      mechanics::strained_combinations(assembly_, system_, bent(system_.bends.stiffness));
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(internal), s = stiffness;
+  // If nothing sticks any start is right, and zero is free of rounding.
+  const Eigen::VectorXd from = stuck_ == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : q;
+  const Eigen::MatrixXd K_bent = eq.stiffness_beyond(beyond_ & ~eq.bends.of_velocity);
+  const Eigen::VectorXd bent_force = eq.force_beyond(beyond_).col(0);
+  Eigen::VectorXd force = bent_force - K_bent * from, pushed = bent_force;
+  double largest = bent_force.cwiseAbs().maxCoeff();
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    const bool sticks = contains(stuck_, j);
+    if (!sticks) {
+      const Eigen::VectorXd friction = (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
+      force -= friction;
+      pushed -= friction;
+      largest = std::max(largest, friction.cwiseAbs().maxCoeff());
+    }
+    if (eq.holds(j)) continue;
+    const Index place = eq.internal_of[static_cast<std::size_t>(j)];
+    s[place] = s_now[place];
+    if (!sticks) continue;
+    stiffness[place] = eq.internal_stiffness[place];
+    force -= s[place] * eq.D.col(place);
+    strained.conservativeResize(strained.rows() + 1, n);
+    strained.bottomRows(1) = eq.D.col(place).transpose();
+  }
+  State rest = State::Zero(eq.states());
+  rest.head(n) = q;
+  const Eigen::MatrixXd& B = free_directions_;
+  if (B.cols() == 0) {
+    rest.tail(internal) = s;
+    return rest;
+  }
+  const Eigen::MatrixXd R = mechanics::free_within(strained, B, eq.M);
+
+  // Beside R the springs decide.
+  const Eigen::MatrixXd K = K_bent + eq.D * stiffness.asDiagonal() * eq.D.transpose();
+  const Eigen::MatrixXd held = mechanics::beside(R, B, eq.M);
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(n);
+  if (held.cols() > 0)
+    moved = held * algebra::solve(Eigen::MatrixXd(held.transpose() * K * held),
+                                  Eigen::VectorXd(held.transpose() * force));
+  rest.tail(internal) = s + stiffness.cwiseProduct(eq.D.transpose() * moved);
+  rest.head(n) = from + moved;
+  if (R.cols() == 0) return rest;
+
+  // Along R: where it is now, but for what dampers let go.
+  rest.head(n) += R * (R.transpose() * (eq.M * (q - rest.head(n))));
+  const Eigen::VectorXd along = (R.transpose() * pushed).cwiseAbs();
+  for (Index k = 0; k < R.cols(); ++k) {
+    if (along[k] > kRounding * largest * R.col(k).cwiseAbs().sum()) return rest;
+  }
+  const Eigen::MatrixXd U = mechanics::free_within(
+      mechanics::damped_combinations(assembly_, system_, bent(system_.bends.damping)), R, eq.M);
+  for (Index k = 0; k < U.cols(); ++k) {
+    const double momentum = U.col(k).dot(eq.M * v);
+    const double size = U.col(k).cwiseAbs().dot(eq.M.cwiseAbs() * largest_speed_);
+    if (std::abs(momentum) > kRounding * size) rest.segment(n, n) += momentum * U.col(k);
+  }
+  const Eigen::MatrixXd damped = mechanics::beside(U, R, eq.M);
+  if (damped.cols() == 0) return rest;
+  const Eigen::VectorXd slack = (eq.internal_rate.array() > 0.0).select(eq.internal_rate.cwiseInverse(), 0.0);
+  const Eigen::MatrixXd C =
+      eq.damping_beyond(beyond_) +
+      eq.D * (slack.cwiseProduct(eq.internal_stiffness)).asDiagonal() * eq.D.transpose();
+  const Eigen::VectorXd impulse = eq.M * v - eq.D * slack.cwiseProduct(s_now) - C * (rest.head(n) - q);
+  rest.head(n) += damped * algebra::solve(Eigen::MatrixXd(damped.transpose() * C * damped),
+                                          Eigen::VectorXd(damped.transpose() * impulse));
+  return rest;
+}
+
+double Trajectory::drift(const Eigen::VectorXd& w) const {
+  const auto& eq = flow_.equations();
+  if (!eq.has_free_masses) return 0.0;
+  const Eigen::VectorXd v = tends_to().segment(eq.masses(), eq.masses());
+  const double speed = w.dot(v), size = w.cwiseAbs().dot(v.cwiseAbs());
+  return std::abs(speed) > 1e-13 * size ? speed / eq.step : 0.0;
+}
+
+// Of free masses: ordinary ones are held by springs of their own.
+bool Trajectory::goes_on_freely() const {
+  const auto& eq = flow_.equations();
+  if (!eq.has_free_masses) return true;
+  const Index n = eq.masses();
+  const State end = tends_to();
+  for (Index j = 0; j < eq.bends.count(); ++j) {
+    if (contains(eq.bends.of_velocity, j)) continue;
+    const bool is_beyond = contains(beyond_, j);
+    const double past = eq.bends.B.col(j).dot(end.head(n)) - eq.bends.place[j];
+    const double speed = eq.bends.B.col(j).dot(end.segment(n, n));
+    if (is_beyond ? past < 0.0 || speed < 0.0 : past > 0.0 || speed > 0.0) return false;
+  }
+  return true;
+}
+
 Trajectory::State Trajectory::tends_to() const {
   return crept_ ? creeps_to_ : resting_state(z_);
 }
 
 double Trajectory::distance_from_rest() const {
-  return flow_.equations().energy_norm(State(z_ - resting_state(z_)));
+  const auto& eq = flow_.equations();
+  const State away = z_ - resting_state(z_);
+  if (!eq.has_free_masses) return eq.energy_norm(away);
+  // What is bent holds too.
+  const Eigen::VectorXd q = away.head(eq.masses());
+  const Eigen::MatrixXd K_bends =
+      eq.stiffness_beyond(beyond_ & ~eq.bends.of_velocity) - Eigen::MatrixXd(eq.K);
+  return std::hypot(eq.energy_norm(away), std::sqrt(std::max(0.0, 0.5 * q.dot(K_bends * q))));
 }
 
 bool Trajectory::friction_slides() const {

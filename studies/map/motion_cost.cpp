@@ -26,9 +26,13 @@ double predicted_motion_seconds(const Study& study) {
   const std::vector<double> parameters = parameters_at_first_point(study);
   try {
     const transient::ForcedOptions options = forced_options(study, parameters);
+    const mechanics::Assembly assembly(study.network, free_masses(study.kind()));
+    const mechanics::NetworkValues values = values_at_first_point(study);
     mechanics::LinearSystem system;
-    mechanics::Assembly(study.network).set_values(values_at_first_point(study), system);
-    const double fastest = std::max({periodic::fastest_rate(system), options.from, options.run_up.to});
+    assembly.set_values(values, system);
+    const double fastest =
+        std::max({periodic::fastest_rate(system), transient::stepping_frequency(assembly, values, options),
+                  options.run_up.to});
     const double steps = options.duration * fastest / periodic::kStepRate;
     const double runs = options.run_up.rate > 0.0 ? kOfRunUp : 1.0;
     const double seconds =

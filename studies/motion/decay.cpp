@@ -22,8 +22,10 @@ using transient::DecayEnd, transient::Extremum, transient::FreeDecay;
 
 std::string ending(const Study& study, const FreeDecay& decay) {
   const char* seconds = study.dimensionless ? "" : " s";
+  const bool drifts = std::ranges::any_of(decay.masses, [](const auto& mass) { return mass.drift != 0.0; });
   const std::string left =
-      fmt::format("the energy norm of its distance from rest is {:.3g} of the initial one", decay.remainder);
+      fmt::format("the energy norm of its distance from {} is {:.3g} of the initial one",
+                  drifts && decay.end != DecayEnd::cut_off ? "a steady drift" : "rest", decay.remainder);
   switch (decay.end) {
     case DecayEnd::at_rest:
       if (decay.stop_time == 0.0) return "at rest from the start";
@@ -65,7 +67,7 @@ mechanics::NetworkValues motion_values(const Study& study) {
   }
   try {
     values.hysteretic_omega = 1.0;  // the natural frequencies do not depend on it
-    values.hysteretic_omega = periodic::linear_modes(study.network, values, false).frequency.front();
+    values.hysteretic_omega = periodic::lowest_frequency(study.network, values, free_masses(study.kind()));
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
@@ -86,14 +88,24 @@ transient::InitialState initial_state(const Study& study, std::span<const double
   return state;
 }
 
+// A decay that has no end of its own needs a duration.
+static void check_duration(const Study& study, const mechanics::NetworkValues& values) {
+  if (study.decay()->duration || !transient::has_no_end(study.network, values)) return;
+  throw study.source.error_at(rules::beyond_schema(rules::missing_key), study.values.mass.front().position,
+                              "no spring makes the masses oscillate, and no damper or friction brings them "
+                              "to rest, so this decay has "
+                              "no end of its own; give [decay] a duration (a time, s)");
+}
+
 FreeDecay solve_decay(const Study& study, const transient::Watch& watch) {
   const transient::DecayOptions options{
       .duration = study.decay()->duration ? stated(study, *study.decay()->duration) : 0.0,
       .samples = study.decay()->samples,
       .watch = watch};
   try {
-    FreeDecay decay =
-        transient::free_decay(study.network, motion_values(study), initial_state(study), options);
+    const mechanics::NetworkValues values = motion_values(study);
+    check_duration(study, values);
+    FreeDecay decay = transient::free_decay(study.network, values, initial_state(study), options);
     if (decay.end == DecayEnd::failed)
       throw StudyError(rules::not_computed, "{}",
                        study.source.name + ": the motion is not computed: " + decay.reason);
@@ -119,6 +131,9 @@ std::vector<results::Column> decay_columns(const Study& study, const FreeDecay& 
     columns.add({"*_extremum", name}, unit, "extremum", values, rows);
     columns.add({"*_log_decrement", name}, "1", "extremum", decay.masses[i].log_decrement, rows);
     columns.add_number({"*_rest", name}, unit, decay.masses[i].rest);
+    if (decay.has_free_masses)
+      columns.add_number({"*_drift", name}, mechanics::coordinate_unit(study.network, i, "m s-1"),
+                         decay.masses[i].drift);
   }
   columns.add_number("stop_time", "s", decay.stop_time);
   columns.add_number("duration", "s", decay.duration);
@@ -132,7 +147,7 @@ void print_decay(const Study& study, const FreeDecay& decay, std::ostream& out) 
   constexpr std::size_t most_rows = 12;
   fmt::print(out, "free decay: {}\n", ending(study, decay));
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
-    const auto& [extrema, decrement, rest] = decay.masses[i];
+    const auto& [extrema, decrement, rest, drift] = decay.masses[i];
     const std::string_view unit = mechanics::coordinate_unit(study.network, i, "m");
     fmt::print(out, "\n{}: {} {}", mechanics::coordinate_name(study.network, i), extrema.size(),
                extrema.size() == 1 ? "extremum" : "extrema");
@@ -140,6 +155,9 @@ void print_decay(const Study& study, const FreeDecay& decay, std::ostream& out) 
       const char* stopped = std::isnan(decay.stop_time) ? "will rest at" : "rests at";
       fmt::print(out, ", {} {:.10g}{}", decay.end == DecayEnd::at_rest ? stopped : "tends to", rest,
                  study.dimensionless ? "" : fmt::format(" {}", unit));
+    } else if (std::abs(drift) > 0.0) {
+      fmt::print(out, ", drifts on at {:.10g}{}", drift,
+                 study.dimensionless ? "" : fmt::format(" {}/s", unit));
     }
     fmt::print(out, "\n{:>6}{:>18}{:>18}{:>16}\n", "", study.dimensionless ? "time" : "time [s]",
                study.dimensionless ? "extremum" : fmt::format("extremum [{}]", unit), "log decrement");

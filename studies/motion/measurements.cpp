@@ -36,11 +36,18 @@ mechanics::NetworkValues values_of(const Study& study, std::span<const double> a
   return values;
 }
 
+// Where no mode oscillates the excitation does, or the user decides.
 double usual_rate(const Study& study, const mechanics::NetworkValues& values) {
-  const double lowest = periodic::linear_modes(study.network, values, false).frequency.front();
+  const double lowest = periodic::lowest_frequency(study.network, values, free_masses(study.kind()));
   const double excited =
       study.kind() == StudyKind::decay ? 0.0 : study.network.reference_order * values.omega;
-  return kSamplesAPeriod * std::max(lowest, excited) / kTurn;
+  const bool oscillates = std::ranges::any_of(study.network.excitations,
+                                              [](const auto& component) { return component.order > 0; });
+  if (!(lowest > 0.0) && (study.kind() == StudyKind::decay || !oscillates))
+    throw StudyError(rules::wrong_option,
+                     "{}: nothing oscillates, so no rate of samples is usual; give --rate",
+                     study.source.name);
+  return kSamplesAPeriod * (lowest > excited ? lowest : excited) / kTurn;
 }
 
 std::vector<double> sample_times_of(const Study& study, double duration, double rate) {

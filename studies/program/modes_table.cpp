@@ -34,7 +34,8 @@ void print_table(const Study& study, const periodic::LinearModes& modes, Listing
     const double omega = modes.frequency[k], hertz = omega / (2.0 * std::numbers::pi);
     fmt::print(out, "  {:>4}{:>12.6g}", k + 1, omega);
     if (!study.dimensionless) fmt::print(out, "{:>11.5g}{:>11.5g}", hertz, 60.0 * hertz);
-    fmt::print(out, "{:>12.5g}   {:.4g}\n", modes.damping[k], fmt::join(at_places(modes.shape[k]), ", "));
+    const std::string damping = omega == 0.0 ? "free" : fmt::format("{:.5g}", modes.damping[k]);
+    fmt::print(out, "{:>12}   {:.4g}\n", damping, fmt::join(at_places(modes.shape[k]), ", "));
   }
   if (shown < all || places.size() < masses)
     fmt::print(out, "  {} of {} modes, at {} of {} masses; --all shows all\n", shown, all, places.size(),
@@ -61,8 +62,9 @@ void note_beyond_critical(double ratio, std::ostream& out) {
 ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& values) {
   const auto& elements = study.network.elements;
   const bool friction = std::any_of(elements.begin(), elements.end(), mechanics::has_contact);
-  return {periodic::linear_modes(study.network, values, false),
-          periodic::linear_modes(study.network, values, true), friction, largest_ratio(study, values)};
+  const mechanics::FreeMasses free = free_masses(study.kind());
+  return {periodic::linear_modes(study.network, values, false, free),
+          periodic::linear_modes(study.network, values, true, free), friction, largest_ratio(study, values)};
 }
 
 void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out) {
@@ -71,7 +73,8 @@ void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing,
   note_beyond_critical(modes.largest_ratio, out);
   if (!modes.friction) return;
   if (modes.stuck.frequency.empty()) {
-    fmt::print(out, "With all friction stuck nothing moves.\n");
+    fmt::print(out, "With all friction stuck nothing moves{}.\n",
+               study.network.prescribed.empty() ? "" : ", except with its supports");
     return;
   }
   fmt::print(out, "Undamped modes with all friction stuck\n");

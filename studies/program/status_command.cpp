@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <utility>
 
@@ -22,6 +23,7 @@ namespace {
 
 std::string number_text(const results::Column& column) {
   const double value = column.values.front();
+  if (std::isnan(value)) return "none";
   for (const results::Flag& flag : column.variable.flags) {
     if (flag.value == value) return flag.meaning;
   }

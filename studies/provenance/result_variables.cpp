@@ -95,6 +95,7 @@ constexpr ResultVariable all_variables[] = {
     {"*_log_decrement", "decay",
      "logarithmic decrement of {a mass}: ln abs(x_i / x_(i+2)) of its extrema, a full cycle apart"},
     {"*_rest", "decay", "displacement at which {a mass} rests, or to which it tends"},
+    {"*_drift", "decay", "velocity at which {a mass} that no spring holds drifts on in the end"},
     {"stop_time", "decay", "time from which nothing moves any more"},
     {"duration", "decay", "time until which the motion is recorded"},
     {"reference_frequency", "decay", "frequency of the loss factors"},

@@ -27,6 +27,11 @@ std::string_view kind_noun(StudyKind kind) {
   return "a study";
 }
 
+mechanics::FreeMasses free_masses(StudyKind kind) {
+  const bool is_motion = kind == StudyKind::decay || kind == StudyKind::transient;
+  return is_motion ? mechanics::FreeMasses::allowed : mechanics::FreeMasses::refused;
+}
+
 const MapChoice* Study::map() const {
   if (sweep()) return sweep();
   return transient() && transient()->map ? &*transient()->map : nullptr;

@@ -15,6 +15,8 @@
 namespace frahm::studies {
 namespace {
 
+constexpr const char* motions_need_no_spring = " (a decay or a transient may have free masses)";
+
 // Sets of masses joined by springs; the last set holds what is fixed or moved from outside.
 class Union {
  public:
@@ -57,8 +59,8 @@ void add_rows_of_matrices(const mechanics::Network& network, std::vector<Eigen::
 }  // namespace
 
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
-                           const std::vector<Position>& masses) {
-  if (!context.is_whole) return;
+                           const std::vector<Position>& masses, StudyKind kind) {
+  if (!context.is_whole || free_masses(kind) == mechanics::FreeMasses::allowed) return;
   const auto& network = system.network;
   const std::size_t held = network.masses.size();
   const auto set_of = [&](const mechanics::Node& node) {
@@ -86,14 +88,15 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
         rules::floating_mass, masses[i],
         "{} {} float{} free: no chain of springs leads to ground or to a node of prescribed motion, so the "
         "stiffness matrix is not positive definite; add a weak spring to ground, with a frequency far below "
-        "those of interest, to hold {}",
+        "those of interest, to hold {}{}",
         floating.size() == 1 ? "mass" : "the masses", listed(floating, " and "),
-        floating.size() == 1 ? "s" : "", floating.size() == 1 ? "it" : "them");
+        floating.size() == 1 ? "s" : "", floating.size() == 1 ? "it" : "them", motions_need_no_spring);
   }
 }
 
 // Motions q of the masses that strain no spring, w^T q = 0, and no part given by matrices, K q = 0.
 void check_combinations_are_held(const Study& study) {
+  if (free_masses(study.kind()) == mechanics::FreeMasses::allowed) return;
   const mechanics::Network& network = study.network;
   std::vector<Eigen::VectorXd> springs;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
@@ -117,8 +120,9 @@ void check_combinations_are_held(const Study& study) {
   throw study.source.error_at(
       rules::floating_mass, first.position,
       "{}: {} can move together without straining any spring, so the stiffness matrix is not positive "
-      "definite; each needs one more spring, which may be weak, with a frequency far below those of interest",
-      first.where, listed(names, " and "));
+      "definite; each needs one more spring, which may be weak, with a frequency far below those of "
+      "interest{}",
+      first.where, listed(names, " and "), motions_need_no_spring);
 }
 
 }  // namespace frahm::studies

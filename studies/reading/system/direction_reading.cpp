@@ -249,7 +249,7 @@ void set_directions(Study& study) {
     study.network.elements[e].along = direction_of(study, study.values.along[e]);
     any = true;
   }
-  if (any) check_combinations_are_held(study);
+  if (any || !study.network.matrices.empty()) check_combinations_are_held(study);
 }
 
 }  // namespace frahm::studies

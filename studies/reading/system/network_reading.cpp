@@ -208,7 +208,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
   }
   read_signals(reading, root);
   check_belts(reading);
-  check_masses_are_held(context, reading.result, reading.masses);
+  check_masses_are_held(context, reading.result, reading.masses, kind);
   return std::move(reading.result);
 }
 
