@@ -39,7 +39,7 @@ struct StepEquations {
 
   double step = 0.0;    // h [s]
   double period = 0.0;  // of the fundamental, in steps
-  // The inverse and the roots of K with springs in the free directions that make them swing by 1 rad a step.
+  // K_inverse: of K with springs in the free directions that make them swing at 1 rad a step.
   typename S::Square M, C, K, M_inverse, K_inverse;
   typename S::Square M_root, K_root, M_root_inverse, K_root_inverse;  // upper Cholesky factors: M = R^T R
   bool has_free_masses = false;                   // some directions of the masses are free

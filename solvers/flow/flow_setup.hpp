@@ -88,11 +88,12 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.K = system.K;
   eq.M_inverse = eq.M.inverse();
   eq.has_free_masses = system.free_directions.cols() > 0;
-  typename S::Square held = eq.K;
-  if (eq.has_free_masses) held = mechanics::held_stiffness(system, 1.0 / h);
-  eq.K_inverse = held.inverse();
+  if (eq.has_free_masses)
+    eq.K_inverse = mechanics::held_compliance(system, 1.0 / h);
+  else
+    eq.K_inverse = eq.K.inverse();
   eq.M_root = algebra::upper_root(eq.M);
-  eq.K_root = algebra::upper_root(held);
+  eq.K_root = algebra::upper_root(eq.K);  // of orbits, whose masses are all held
   eq.M_root_inverse = eq.M_root.inverse();
   eq.K_root_inverse = eq.K_root.inverse();
   eq.W = system.W;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
 
@@ -134,9 +135,9 @@ Eigen::MatrixXd damped_combinations(const Assembly& assembly, const LinearSystem
   return rows.matrix();
 }
 
-Eigen::MatrixXd free_within(const MatrixXd& A, const MatrixXd& B, const MatrixXd& M) {
-  const MatrixXd X = B * algebra::null_space(A * B);
-  if (X.cols() == 0) return X;
+Eigen::MatrixXd free_of(const MatrixXd& A, const MatrixXd& M) {
+  const MatrixXd X = algebra::null_space(A);
+  if (X.cols() == 0) return MatrixXd(A.cols(), 0);
   const Eigen::LLT<MatrixXd> root(X.transpose() * M * X);
   return root.matrixL().solve(X.transpose()).transpose();
 }
@@ -148,7 +149,7 @@ Eigen::MatrixXd beside(const MatrixXd& R, const MatrixXd& B, const MatrixXd& M) 
 Eigen::MatrixXd find_free_directions(const Assembly& assembly, const LinearSystem& system) {
   const Index n = system.masses();
   if (are_chained(assembly.network(), system)) return MatrixXd(n, 0);
-  return free_within(strained_combinations(assembly, system), MatrixXd::Identity(n, n), system.M);
+  return free_of(strained_combinations(assembly, system), system.M);
 }
 
 bool has_free_masses(const Assembly& assembly, const NetworkValues& values) {
@@ -162,14 +163,29 @@ bool has_free_masses(const Assembly& assembly, const NetworkValues& values) {
   return find_free_directions(assembly, springs).cols() > 0;
 }
 
-Eigen::MatrixXd held_stiffness(const LinearSystem& system, double rate) {
-  const MatrixXd M_R = rate * system.M * system.free_directions;
-  return system.K + M_R * M_R.transpose();
+// As weak as the weakest spring on the masses of each direction, so that none is lost in rounding.
+Eigen::MatrixXd held_stiffness(const LinearSystem& system) {
+  constexpr double kNoShare = 1e-9;
+  MatrixXd K = system.K;
+  for (Index k = 0; k < system.free_directions.cols(); ++k) {
+    const Eigen::VectorXd r =
+        system.free_directions.col(k) / system.free_directions.col(k).cwiseAbs().maxCoeff();
+    double weakest = 0.0;
+    for (Index i = 0; i < r.size(); ++i) {
+      const double own = system.K(i, i);
+      if (std::abs(r[i]) > kNoShare && own > 0.0 && (weakest == 0.0 || own < weakest)) weakest = own;
+    }
+    K += (weakest > 0.0 ? weakest : 1.0) * r * r.transpose();
+  }
+  return K;
 }
 
-Eigen::MatrixXd held_stiffness(const LinearSystem& system) {
-  const double rate = (system.K.diagonal().array() / system.M.diagonal().array()).abs().maxCoeff();
-  return held_stiffness(system, rate > 0.0 ? std::sqrt(rate) : 1.0);
+// P K_held^-1 P^T + R R^T/rate^2,  P = 1 - R R^T M.
+Eigen::MatrixXd held_compliance(const LinearSystem& system, double rate) {
+  const MatrixXd& R = system.free_directions;
+  const Index n = system.masses();
+  const MatrixXd P = MatrixXd::Identity(n, n) - R * (R.transpose() * system.M);
+  return P * algebra::inverse(held_stiffness(system)) * P.transpose() + R * R.transpose() / (rate * rate);
 }
 
 algebra::SymmetricModes modes_with_free(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R) {

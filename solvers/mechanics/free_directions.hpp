@@ -31,11 +31,12 @@ Eigen::MatrixXd strained_combinations(const Assembly& assembly, const LinearSyst
 Eigen::MatrixXd damped_combinations(const Assembly& assembly, const LinearSystem& system,
                                     std::span<const double> more = {});
 
-// A basis X, n x r, of the displacements x = B y with A x = 0, orthonormal with X^T M X = 1.  A: k x n, B: n
-// x b.
-Eigen::MatrixXd free_within(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Eigen::MatrixXd& M);
+// A basis X, n x r, of the displacements x with A x = 0, orthonormal with X^T M X = 1. A: rows of length 1, k
+// x n.
+Eigen::MatrixXd free_of(const Eigen::MatrixXd& A, const Eigen::MatrixXd& M);
 
-// A basis of those x = B y that are orthogonal to R in the product of M: R^T M x = 0; n x (b - r).
+// A basis of those x = B y that are orthogonal to R in the product of M, R^T M x = 0; n x (b - r). R: within
+// B.
 Eigen::MatrixXd beside(const Eigen::MatrixXd& R, const Eigen::MatrixXd& B, const Eigen::MatrixXd& M);
 
 // The free directions of all masses (LinearSystem::free_directions), n x r; without columns where springs
@@ -45,11 +46,12 @@ Eigen::MatrixXd find_free_directions(const Assembly& assembly, const LinearSyste
 // Whether there are any at these values, which is faster to tell than all their matrices.
 bool has_free_masses(const Assembly& assembly, const NetworkValues& values);
 
-// K + rate^2 M R R^T M, positive definite where K is definite beside the free directions R: springs in these
-// that would make them swing at `rate` [rad/s].
-Eigen::MatrixXd held_stiffness(const LinearSystem& system, double rate);
-// The same at a rate of the size of the system's own.
+// K with weak springs in the free directions, positive definite where K is definite beside them.
 Eigen::MatrixXd held_stiffness(const LinearSystem& system);
+
+// The displacements under forces, of which what pushes along free directions R meets springs there that make
+// them swing at `rate` [rad/s]:  (K + rate^2 M R R^T M)^-1.
+Eigen::MatrixXd held_compliance(const LinearSystem& system, double rate);
 
 // The modes K v = lambda M v, v^T M v = 1, ascending, of a stiffness that is zero in the directions R, R^T M
 // R = 1: these come first, with lambda = 0 exactly.

@@ -5,6 +5,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/solve.hpp"
 #include "solvers/algebra/symmetric_modes.hpp"
 #include "solvers/mechanics/free_directions.hpp"
 
@@ -97,15 +98,21 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
       const Eigen::VectorXd d = system.D.col(internal);
       K += system.internal_stiffness[internal] * d * d.transpose();
       strained.conservativeResize(strained.rows() + 1, n);
-      strained.bottomRows(1) = d.transpose();
+      strained.bottomRows(1) = d.normalized().transpose();
     }
   }
   const Eigen::MatrixXd B = algebra::null_space(system.W(Eigen::all, held).transpose());
   if (B.cols() == 0) return {};
   const Eigen::MatrixXd K_B = B.transpose() * K * B, M_B = B.transpose() * system.M * B;
   Eigen::MatrixXd free_B(B.cols(), 0);
-  if (system.free_directions.cols() > 0)
-    free_B = mechanics::free_within(strained * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()), M_B);
+  if (system.free_directions.cols() > 0) {
+    for (const Eigen::Index j : held) {
+      strained.conservativeResize(strained.rows() + 1, n);
+      strained.bottomRows(1) = system.W.col(j).normalized().transpose();
+    }
+    const Eigen::MatrixXd free_and_held = mechanics::free_of(strained, system.M);
+    free_B = algebra::inverse(B.transpose() * B) * (B.transpose() * free_and_held);
+  }
   const algebra::SymmetricModes modes = mechanics::modes_with_free(K_B, M_B, free_B);
   LinearModes result;
   for (Eigen::Index k = 0; k < B.cols(); ++k) {

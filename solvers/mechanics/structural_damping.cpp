@@ -149,9 +149,11 @@ void set_structural_damping(const Assembly& assembly, const std::vector<double>&
   const Index n = system.K.rows(), size = n + 1 + system.K_support.cols();
   system.structural_damping.setZero(size, size);
   if (network.damping != DampingModel::none) {
-    // What springs exert strains no free direction: any stiffness there gives the same.
-    const MatrixXd K = system.free_directions.cols() > 0 ? held_stiffness(system) : system.K;
-    const MatrixXd T = relative_motion(algebra::solve_positive(K, stiffness_to_ends(assembly, system)));
+    const MatrixXd& R = system.free_directions;
+    const MatrixXd K = R.cols() > 0 ? held_stiffness(system) : system.K;
+    MatrixXd B = algebra::solve_positive(K, stiffness_to_ends(assembly, system));
+    if (R.cols() > 0) B -= R * (R.transpose() * system.M * B);  // supports do not push along R
+    const MatrixXd T = relative_motion(B);
     system.structural_damping = T.transpose() * damping_of(network, values, system) * T;
   }
   if (const MatrixXd& C = assembly.matrices().damping; C.size() > 0)

@@ -15,6 +15,15 @@ namespace frahm::transient {
 using Eigen::Index;
 using periodic::contains, periodic::ContactMask;
 
+namespace {
+
+void add_row(const Eigen::VectorXd& row, Eigen::MatrixXd& rows) {
+  rows.conservativeResize(rows.rows() + 1, row.size());
+  rows.bottomRows(1) = row.normalized().transpose();
+}
+
+}  // namespace
+
 // The contacts that rest from here on, and those that no longer do. One that others hold rests too.
 void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at,
                            const State& z) {
@@ -167,8 +176,10 @@ Trajectory::State Trajectory::resting_state_of_free(const State& z) const {
     if (!sticks) continue;
     stiffness[place] = eq.internal_stiffness[place];
     force -= s[place] * eq.D.col(place);
-    strained.conservativeResize(strained.rows() + 1, n);
-    strained.bottomRows(1) = eq.D.col(place).transpose();
+    add_row(eq.D.col(place), strained);
+  }
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(stuck_ & eq.holding, j)) add_row(eq.W.col(j), strained);
   }
   State rest = State::Zero(eq.states());
   rest.head(n) = q;
@@ -177,7 +188,7 @@ Trajectory::State Trajectory::resting_state_of_free(const State& z) const {
     rest.tail(internal) = s;
     return rest;
   }
-  const Eigen::MatrixXd R = mechanics::free_within(strained, B, eq.M);
+  const Eigen::MatrixXd R = mechanics::free_of(strained, eq.M);
 
   // Beside R the springs decide.
   const Eigen::MatrixXd K = K_bent + eq.D * stiffness.asDiagonal() * eq.D.transpose();
@@ -196,8 +207,11 @@ Trajectory::State Trajectory::resting_state_of_free(const State& z) const {
   for (Index k = 0; k < R.cols(); ++k) {
     if (along[k] > kRounding * largest * R.col(k).cwiseAbs().sum()) return rest;
   }
-  const Eigen::MatrixXd U = mechanics::free_within(
-      mechanics::damped_combinations(assembly_, system_, bent(system_.bends.damping)), R, eq.M);
+  const Eigen::MatrixXd dampers =
+      mechanics::damped_combinations(assembly_, system_, bent(system_.bends.damping));
+  Eigen::MatrixXd all(strained.rows() + dampers.rows(), n);
+  all << strained, dampers;
+  const Eigen::MatrixXd U = mechanics::free_of(all, eq.M);
   for (Index k = 0; k < U.cols(); ++k) {
     const double momentum = U.col(k).dot(eq.M * v);
     const double size = U.col(k).cwiseAbs().dot(eq.M.cwiseAbs() * largest_speed_);

@@ -88,8 +88,7 @@ transient::InitialState initial_state(const Study& study, std::span<const double
   return state;
 }
 
-// A decay that has no end of its own needs a duration.
-static void check_duration(const Study& study, const mechanics::NetworkValues& values) {
+void check_duration(const Study& study, const mechanics::NetworkValues& values) {
   if (study.decay()->duration || !transient::has_no_end(study.network, values)) return;
   throw study.source.error_at(rules::beyond_schema(rules::missing_key), study.values.mass.front().position,
                               "no spring makes the masses oscillate, and no damper or friction brings them "

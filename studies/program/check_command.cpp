@@ -143,7 +143,7 @@ void print_decay_choice(const Study& study, const mechanics::NetworkValues& valu
   fmt::print(out, "decay      free vibration, {}\n",
              duration ? "for " + seconds_text(study, stated(study, *duration))
                       : "until rest, or until its end is clear");
-  if (mechanics::frequency_dependent_element(study.network)) {
+  if (mechanics::frequency_dependent_element(study.network) && values.hysteretic_omega > 0.0) {
     fmt::print(out, "reference  {}: the loss factors' frequency\n",
                frequency_text(study, values.hysteretic_omega));
   }
@@ -174,6 +174,7 @@ int check_motion(const Study& study, Listing listing, std::ostream& out) {
   const mechanics::NetworkValues values = motion_values(study);
   const transient::InitialState initial = initial_state(study);
   const ModesAtPoint modes = modes_of_motion(study, values);
+  if (study.kind() == StudyKind::decay) check_duration(study, values);
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);
   if (study.kind() == StudyKind::decay) {

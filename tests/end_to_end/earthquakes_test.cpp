@@ -176,5 +176,20 @@ TEST_CASE(
   for (std::size_t i = 0; i < 3 * points; ++i) CHECK(map["energy_balance"][i] < 1e-9);
 }
 
+TEST_CASE("newmark_block.toml: the block slips V^2/(2 mu g) (1 - mu g/a)") {
+  constexpr double exact = 1e-12;  // relative
+  const double m = 2000.0, deceleration = 0.12 * gravity, a = 3.0, V = 1.5;
+  const double slip = V * V / (2.0 * deceleration) * (1.0 - deceleration / a);
+  const runs::MotionFile file(study_path("newmark_block"), "transient");
+  CHECK_THAT(file["slip_displacement"].back(), Catch::WithinRel(slip, exact));
+  CHECK_THAT(file["slip_peak"][0], Catch::WithinRel(slip, exact));
+  CHECK_THAT(file["friction_energy"][0], Catch::WithinRel(m * deceleration * slip, exact));
+  CHECK_THAT(file["final_energy"][0], Catch::WithinRel(0.5 * m * V * V, exact));
+  const auto &onset = file["friction_stop_onset"], &release = file["friction_release"];
+  REQUIRE(onset.size() == 1);
+  CHECK_THAT(onset[0], Catch::WithinRel(V / deceleration, exact));
+  CHECK(std::isnan(release[0]));
+}
+
 }  // namespace
 }  // namespace earthquakes_test

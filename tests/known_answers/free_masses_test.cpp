@@ -80,7 +80,6 @@ TEST_CASE("A mass on a damper tends to m v/c") {
       free_decay(network, {.mass = {m}, .element = {c}}, {{0.4}, {v}}, {.duration = 3.0, .samples = 2});
   CHECK_THAT(decay.history.displacement[0].back(),
              WithinRel(0.4 + m * v / c * (1.0 - std::exp(-3.0 * c / m)), kExact));
-  CHECK(decay.end == DecayEnd::cut_off);
   const FreeDecay whole = free_decay(network, {.mass = {m}, .element = {c}}, {{0.4}, {v}}, {});
   CHECK(whole.end == DecayEnd::decayed);
   CHECK(whole.masses[0].drift == 0.0);
@@ -101,7 +100,7 @@ TEST_CASE("Two masses joined by a damper, or by a spring and a damper, drift on 
       Network network = pair_with({{"spring", ElementType::spring, kFirst, kSecond},
                                    {"damper", ElementType::damper, kFirst, kSecond}});
       network.signals = {{"apart", mechanics::between(kFirst, kSecond)}};
-      const NetworkValues values{.mass = {3.0, light}, .element = {k, 0.2 * light}};
+      const NetworkValues values{.mass = {3.0, light}, .element = {k, 0.2 * std::sqrt(light)}};
       const double together = (3.0 * 0.5 + light * 2.0) / (3.0 + light);
       const FreeDecay decay = free_decay(network, values, {{0.1, 0.2}, {0.5, 2.0}}, {});
       INFO("k " << k << ", mass " << light << " " << decay.reason);
@@ -115,8 +114,8 @@ TEST_CASE("Two masses joined by a damper, or by a spring and a damper, drift on 
       CHECK(decay.masses[2].drift == 0.0);
       // 0.1 apart at the start; without a spring (v_b - v_a) mu/c more
       const double mu = 3.0 * light / (3.0 + light);
-      CHECK_THAT(decay.masses[2].rest,
-                 WithinAbs(k > 0.0 ? 0.0 : 0.1 + 1.5 * mu / (0.2 * light), k > 0.0 ? 1e-12 : 1e-11));
+      CHECK_THAT(decay.masses[2].rest, WithinAbs(k > 0.0 ? 0.0 : 0.1 + 1.5 * mu / (0.2 * std::sqrt(light)),
+                                                 k > 0.0 ? 1e-12 : 1e-11));
       if (k == 0.0 || light < 1.0) continue;
       const double omega = std::sqrt(k / mu), zeta = 0.2 / (2.0 * mu * omega);
       CHECK_THAT(decay.masses[2].log_decrement[0],
@@ -170,7 +169,7 @@ TEST_CASE("A mass bounces off a stop and is not at rest against it") {
                                  : 1.0 - 0.3 * (t - leave);
     INFO("duration " << duration);
     CHECK_THAT(decay.history.displacement[0].back(), WithinAbs(x, 1e-12));
-    CHECK(decay.energy.balance < kExact);
+    CHECK(decay.energy.balance < 1e-12);
   }
   // Let go from the stop, it flies off.
   const FreeDecay off = free_decay(network, values, {{1.5}, {0.0}}, {.duration = 20.0, .samples = 2});
@@ -231,15 +230,15 @@ TEST_CASE("Newmark's block slips as far as its formula says") {
   const ForcedMotion motion =
       motion_of(network, values, {}, {.from = 1.0, .records = {{0, &pulse}}, .duration = 4.0, .samples = 3});
   REQUIRE(motion.failure.empty());
-  CHECK_THAT(motion.history.displacement[1].back(),
-             WithinAbs(-V * V / (2.0 * mu_g) * (1.0 - mu_g / a), 1e-14));
+  const double slip = V * V / (2.0 * mu_g) * (1.0 - mu_g / a);
+  CHECK(std::abs(motion.history.displacement[1].back() + slip) < 1e-14);
   CHECK(motion.energy.balance < kExact);
 }
 
 TEST_CASE("Free masses are refused where they are not allowed, and so is a stiffness that pushes") {
   const Network network = pair_with({{"spring", ElementType::spring, kFirst, kSecond}});
   mechanics::LinearSystem system;
-  CHECK_THROWS_WITH(mechanics::Assembly(network).set_values({.mass = {1.0, 1.0}, .element = {2.0}}, system),
+  CHECK_THROWS_WITH(mechanics::Assembly(network).set_values({.mass = {1.0, 1.0}, .element = {4.0}}, system),
                     Contains("held by no spring"));
   CHECK_THROWS_WITH(mechanics::Assembly(network, FreeMasses::allowed)
                         .set_values({.mass = {1.0, 1.0}, .element = {-2.0}}, system),
