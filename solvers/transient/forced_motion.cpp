@@ -218,7 +218,7 @@ int first_stairs(const Problem& problem) {
 
 double stepping_frequency(const mechanics::Assembly& assembly, const mechanics::NetworkValues& values,
                           const ForcedOptions& options) {
-  constexpr double kSteps = 1000.0;
+  constexpr double kSteps = 100.0;
   const auto& excitations = assembly.network().excitations;
   const bool oscillates = std::ranges::any_of(excitations, [](const auto& each) { return each.order > 0; });
   if (oscillates || assembly.matrices_depend_on_frequency() || !mechanics::has_free_masses(assembly, values))

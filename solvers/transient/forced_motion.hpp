@@ -52,7 +52,7 @@ struct ForcedMotion {
 
 // The frequency [rad/s] that limits the length of a step. It is options.from; but where nothing in the
 // excitation oscillates it means nothing else, and free masses may have no rate of their own: then it is one
-// of which the duration has a thousand steps.
+// of which the duration has a hundred steps.
 double stepping_frequency(const mechanics::Assembly& assembly, const mechanics::NetworkValues& values,
                           const ForcedOptions& options);
 

@@ -233,7 +233,10 @@ bool is_free(const mechanics::LinearSystem& system, const Eigen::VectorXd& w) {
 
 void tell_masses(const mechanics::Network& network, const mechanics::LinearSystem& system,
                  const Trajectory& trajectory, bool tends_somewhere, FreeDecay& decay) {
-  const Eigen::VectorXd rest = trajectory.tends_to().head(static_cast<Eigen::Index>(network.masses.size()));
+  constexpr double kRounding = 1e-13;
+  const auto n = static_cast<Eigen::Index>(network.masses.size());
+  const Eigen::VectorXd end = trajectory.tends_to(), rest = end.head(n);
+  const Eigen::VectorXd velocity = end.segment(n, n) / trajectory.step();
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
     DecayOfMass& mass = decay.masses[i];
     for (const Extremum& extremum : trajectory.turning_points(i).extrema()) {
@@ -242,7 +245,8 @@ void tell_masses(const mechanics::Network& network, const mechanics::LinearSyste
     const Eigen::VectorXd w = mechanics::coordinate_incidence(network, i).w;
     mass.log_decrement =
         is_free(system, w) ? std::vector<double>(mass.extrema.size(), kNone) : log_decrements(mass.extrema);
-    mass.drift = tends_somewhere ? trajectory.drift(w) : kNone;
+    mass.drift = tends_somewhere ? w.dot(velocity) : kNone;
+    if (std::abs(mass.drift) <= kRounding * w.cwiseAbs().dot(velocity.cwiseAbs())) mass.drift = 0.0;
     mass.rest = mass.drift == 0.0 ? w.dot(rest) : kNone;
   }
 }

@@ -56,6 +56,7 @@ void Trajectory::set_system(const mechanics::LinearSystem& system, double phase)
   const double energy = has_started() ? energy_now() : 0.0;
   flow_.set_system(system);
   if (system.free_directions.cols() > 0 && kept_.rest) system_ = system;
+  ways_.known = false;
   take_forcing(system, phase, energy);
 }
 

@@ -80,9 +80,6 @@ class Trajectory {
   // Where the masses are at rest, or tend to while the contacts stick and slide as they do: the state there,
   // displacements [m] first. Free masses that drift have their velocity then, and their place now.
   Flow::S::State tends_to() const;
-  // The velocity of a mass or signal [m/s] at which it drifts in the end, by w of its incidence; 0 of one
-  // that comes to rest.
-  double drift(const Eigen::VectorXd& w) const;
 
   const TurningPoints& turning_points(std::size_t coordinate) const { return turning_points_[coordinate]; }
   const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
@@ -114,6 +111,16 @@ class Trajectory {
   Oscillators oscillators_now() const;
   State resting_state(const State& z) const;
   State resting_state_of_free(const State& z) const;
+  // Where free masses can go in a mode: bases in columns, n rows each, and what follows from them.
+  struct Ways {
+    bool known = false;
+    periodic::ContactMask stuck = 0, beyond = 0;  // of which it is
+    Eigen::MatrixXd free{}, undamped{};           // that strain nothing; of these, that no damper takes up
+    Eigen::MatrixXd held{}, damped{};             // of those beside the stuck contacts, and of the free ones
+    Eigen::MatrixXd K{}, C{};  // with what is bent; C with what Maxwell elements let go in the end
+    Eigen::MatrixXd compliance{}, admittance{};  // along held [m/N], along damped [m a step/N]
+  };
+  const Ways& ways() const;
   std::vector<double> bent(const Eigen::VectorXd& of_bends) const;
   void note_speeds();
 
@@ -139,6 +146,7 @@ class Trajectory {
   periodic::ContactMask stuck_ = 0, positive_ = 0, beyond_ = 0;
   Eigen::MatrixXd free_directions_;  // of the masses, while these contacts stick
   mechanics::LinearSystem system_;   // of free masses
+  mutable Ways ways_;                // of the mode that was last asked for
   Eigen::VectorXd largest_speed_;    // of each mass at the ends of passages [m a step], of free masses
   Eigen::VectorXd deceleration_;     // of each sliding contact at the end of the step before [m a step^2]
   bool crept_ = false;

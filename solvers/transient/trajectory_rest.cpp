@@ -142,6 +142,46 @@ std::vector<double> Trajectory::bent(const Eigen::VectorXd& of_bends) const {
   return sum;
 }
 
+const Trajectory::Ways& Trajectory::ways() const {
+  if (ways_.known && ways_.stuck == stuck_ && ways_.beyond == beyond_) return ways_;
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses();
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(eq.internal_forces());
+  Eigen::MatrixXd strained =
+      mechanics::strained_combinations(assembly_, system_, bent(system_.bends.stiffness));
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(stuck_, j)) continue;
+    if (eq.holds(j)) {
+      add_row(eq.W.col(j), strained);
+    } else {
+      const Index place = eq.internal_of[static_cast<std::size_t>(j)];
+      stiffness[place] = eq.internal_stiffness[place];
+      add_row(eq.D.col(place), strained);
+    }
+  }
+  const Eigen::MatrixXd dampers =
+      mechanics::damped_combinations(assembly_, system_, bent(system_.bends.damping));
+  Eigen::MatrixXd all(strained.rows() + dampers.rows(), n);
+  all << strained, dampers;
+  const Eigen::VectorXd slack = (eq.internal_rate.array() > 0.0).select(eq.internal_rate.cwiseInverse(), 0.0);
+  ways_ = {.known = true, .stuck = stuck_, .beyond = beyond_};
+  ways_.free = mechanics::free_of(strained, eq.M);
+  ways_.undamped = mechanics::free_of(all, eq.M);
+  ways_.held = mechanics::beside(ways_.free, free_directions_, eq.M);
+  ways_.damped = mechanics::beside(ways_.undamped, ways_.free, eq.M);
+  ways_.K = eq.stiffness_beyond(beyond_ & ~eq.bends.of_velocity);
+  ways_.C = eq.damping_beyond(beyond_) +
+            eq.D * slack.cwiseProduct(eq.internal_stiffness).asDiagonal() * eq.D.transpose();
+  const Eigen::MatrixXd K = ways_.K + eq.D * stiffness.asDiagonal() * eq.D.transpose();
+  if (ways_.held.cols() > 0)
+    ways_.compliance =
+        ways_.held * algebra::inverse(ways_.held.transpose() * K * ways_.held) * ways_.held.transpose();
+  if (ways_.damped.cols() > 0)
+    ways_.admittance = ways_.damped * algebra::inverse(ways_.damped.transpose() * ways_.C * ways_.damped) *
+                       ways_.damped.transpose();
+  return ways_;
+}
+
 // As above, but some directions R of the masses that are not held strain nothing. Along these, while no force
 // acts, the momentum and what dampers and Maxwell elements take up are constant,
 //   R^T (M q' + C q - D s/rate + D (k/rate) D^T q) = const,
@@ -151,90 +191,54 @@ std::vector<double> Trajectory::bent(const Eigen::VectorXd& of_bends) const {
 Trajectory::State Trajectory::resting_state_of_free(const State& z) const {
   constexpr double kRounding = 1e-11;  // of a momentum, after millions of steps
   const auto& eq = flow_.equations();
+  const Ways& ways = this->ways();
   const Index n = eq.masses(), internal = eq.internal_forces();
   const Eigen::VectorXd q = z.head(n), v = z.segment(n, n), s_now = z.tail(internal);
-  Eigen::MatrixXd strained =
-      mechanics::strained_combinations(assembly_, system_, bent(system_.bends.stiffness));
-  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(internal), s = stiffness;
   // If nothing sticks any start is right, and zero is free of rounding.
   const Eigen::VectorXd from = stuck_ == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : q;
-  const Eigen::MatrixXd K_bent = eq.stiffness_beyond(beyond_ & ~eq.bends.of_velocity);
   const Eigen::VectorXd bent_force = eq.force_beyond(beyond_).col(0);
-  Eigen::VectorXd force = bent_force - K_bent * from, pushed = bent_force;
+  Eigen::VectorXd pushed = bent_force, s = Eigen::VectorXd::Zero(internal), stiffness = s;
   double largest = bent_force.cwiseAbs().maxCoeff();
   for (Index j = 0; j < eq.contacts(); ++j) {
     const bool sticks = contains(stuck_, j);
     if (!sticks) {
       const Eigen::VectorXd friction = (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
-      force -= friction;
       pushed -= friction;
       largest = std::max(largest, friction.cwiseAbs().maxCoeff());
     }
     if (eq.holds(j)) continue;
     const Index place = eq.internal_of[static_cast<std::size_t>(j)];
     s[place] = s_now[place];
-    if (!sticks) continue;
-    stiffness[place] = eq.internal_stiffness[place];
-    force -= s[place] * eq.D.col(place);
-    add_row(eq.D.col(place), strained);
-  }
-  for (Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(stuck_ & eq.holding, j)) add_row(eq.W.col(j), strained);
+    if (sticks) stiffness[place] = eq.internal_stiffness[place];
   }
   State rest = State::Zero(eq.states());
-  rest.head(n) = q;
-  const Eigen::MatrixXd& B = free_directions_;
-  if (B.cols() == 0) {
-    rest.tail(internal) = s;
-    return rest;
-  }
-  const Eigen::MatrixXd R = mechanics::free_of(strained, eq.M);
 
   // Beside R the springs decide.
-  const Eigen::MatrixXd K = K_bent + eq.D * stiffness.asDiagonal() * eq.D.transpose();
-  const Eigen::MatrixXd held = mechanics::beside(R, B, eq.M);
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(n);
-  if (held.cols() > 0)
-    moved = held * algebra::solve(Eigen::MatrixXd(held.transpose() * K * held),
-                                  Eigen::VectorXd(held.transpose() * force));
+  if (ways.held.cols() > 0) {
+    const Eigen::VectorXd of_sliders = (stiffness.array() > 0.0).select(s, 0.0);
+    moved = ways.compliance * (pushed - ways.K * from - eq.D * of_sliders);
+  }
   rest.tail(internal) = s + stiffness.cwiseProduct(eq.D.transpose() * moved);
   rest.head(n) = from + moved;
+  const Eigen::MatrixXd& R = ways.free;
   if (R.cols() == 0) return rest;
 
   // Along R: where it is now, but for what dampers let go.
   rest.head(n) += R * (R.transpose() * (eq.M * (q - rest.head(n))));
-  const Eigen::VectorXd along = (R.transpose() * pushed).cwiseAbs();
   for (Index k = 0; k < R.cols(); ++k) {
-    if (along[k] > kRounding * largest * R.col(k).cwiseAbs().sum()) return rest;
+    if (std::abs(R.col(k).dot(pushed)) > kRounding * largest * R.col(k).cwiseAbs().sum()) return rest;
   }
-  const Eigen::MatrixXd dampers =
-      mechanics::damped_combinations(assembly_, system_, bent(system_.bends.damping));
-  Eigen::MatrixXd all(strained.rows() + dampers.rows(), n);
-  all << strained, dampers;
-  const Eigen::MatrixXd U = mechanics::free_of(all, eq.M);
-  for (Index k = 0; k < U.cols(); ++k) {
-    const double momentum = U.col(k).dot(eq.M * v);
-    const double size = U.col(k).cwiseAbs().dot(eq.M.cwiseAbs() * largest_speed_);
-    if (std::abs(momentum) > kRounding * size) rest.segment(n, n) += momentum * U.col(k);
+  for (Index k = 0; k < ways.undamped.cols(); ++k) {
+    const auto u = ways.undamped.col(k);
+    const double momentum = u.dot(eq.M * v), size = u.cwiseAbs().dot(eq.M.cwiseAbs() * largest_speed_);
+    if (std::abs(momentum) > kRounding * size) rest.segment(n, n) += momentum * u;
   }
-  const Eigen::MatrixXd damped = mechanics::beside(U, R, eq.M);
-  if (damped.cols() == 0) return rest;
+  if (ways.damped.cols() == 0) return rest;
   const Eigen::VectorXd slack = (eq.internal_rate.array() > 0.0).select(eq.internal_rate.cwiseInverse(), 0.0);
-  const Eigen::MatrixXd C =
-      eq.damping_beyond(beyond_) +
-      eq.D * (slack.cwiseProduct(eq.internal_stiffness)).asDiagonal() * eq.D.transpose();
-  const Eigen::VectorXd impulse = eq.M * v - eq.D * slack.cwiseProduct(s_now) - C * (rest.head(n) - q);
-  rest.head(n) += damped * algebra::solve(Eigen::MatrixXd(damped.transpose() * C * damped),
-                                          Eigen::VectorXd(damped.transpose() * impulse));
+  rest.head(n) +=
+      ways.admittance * (eq.M * v - eq.D * slack.cwiseProduct(s_now) - ways.C * (rest.head(n) - q));
   return rest;
-}
-
-double Trajectory::drift(const Eigen::VectorXd& w) const {
-  const auto& eq = flow_.equations();
-  if (!eq.has_free_masses) return 0.0;
-  const Eigen::VectorXd v = tends_to().segment(eq.masses(), eq.masses());
-  const double speed = w.dot(v), size = w.cwiseAbs().dot(v.cwiseAbs());
-  return std::abs(speed) > 1e-13 * size ? speed / eq.step : 0.0;
 }
 
 // Of free masses: ordinary ones are held by springs of their own.

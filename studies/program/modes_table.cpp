@@ -42,6 +42,15 @@ void print_table(const Study& study, const periodic::LinearModes& modes, Listing
                masses);
 }
 
+bool rubs_on_a_support(const mechanics::Network& network) {
+  return std::ranges::any_of(network.elements, [](const mechanics::Element& element) {
+    return mechanics::has_contact(element) &&
+           std::ranges::any_of(element.along, [](const mechanics::Share& share) {
+             return share.node.kind == mechanics::NodeKind::prescribed;
+           });
+  });
+}
+
 // The largest ratio that [damping] modal gives a mode; 0 without it.
 double largest_ratio(const Study& study, const mechanics::NetworkValues& values) {
   if (study.network.damping != mechanics::DampingModel::modal) return 0.0;
@@ -74,7 +83,7 @@ void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing,
   if (!modes.friction) return;
   if (modes.stuck.frequency.empty()) {
     fmt::print(out, "With all friction stuck nothing moves{}.\n",
-               study.network.prescribed.empty() ? "" : ", except with its supports");
+               rubs_on_a_support(study.network) ? ", except with its supports" : "");
     return;
   }
   fmt::print(out, "Undamped modes with all friction stuck\n");

@@ -24,8 +24,8 @@ function modeTable(group) {
   const rows = Array.from(frequency.values, (omega, k) => [
     k + 1,
     numberText(omega),
-    ...(isTimed ? [numberText(omega / (2 * Math.PI)), numberText((2 * Math.PI) / omega)] : []),
-    numberText(damping[k]),
+    ...(isTimed ? [numberText(omega / (2 * Math.PI)), omega > 0 ? numberText((2 * Math.PI) / omega) : ""] : []),
+    omega > 0 ? numberText(damping[k]) : "free",
   ]);
   const head = isTimed
     ? ["mode", "frequency (rad/s)", "(Hz)", "period (s)", "damping ratio"]
