@@ -244,7 +244,7 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
       system.W.col(contact) = shares_[e].orientation * at.w;
       system.W_support.col(contact) = shares_[e].orientation * at.p;
       const double at_rest = static_force(network_.elements[e], values, e);
-      const double limit = friction_at_high_speed(network_.elements[e], smooth_value(values, e), added.limit);
+      const double limit = friction_at_high_speed(smooth_value(values, e), added.limit);
       system.limit[contact] += limit;
       system.static_limit[contact] += at_rest > 0.0 ? at_rest : limit;
       system.coefficients[e].static_friction = at_rest > 0.0 ? at_rest : added.limit;
@@ -295,7 +295,7 @@ void Assembly::set_friction(const NetworkValues& values, LinearSystem& system) c
     const Added<double> added =
         kind_of(network_.elements[e]).adds(values.element[e], second_value(values, e), 0.0);
     const double at_rest = static_force(network_.elements[e], values, e);
-    const double limit = friction_at_high_speed(network_.elements[e], smooth_value(values, e), added.limit);
+    const double limit = friction_at_high_speed(smooth_value(values, e), added.limit);
     const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
     system.coefficients[e].friction = added.limit;
     system.coefficients[e].static_friction = at_rest > 0.0 ? at_rest : added.limit;

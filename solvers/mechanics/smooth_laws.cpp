@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "solvers/mechanics/linear_system.hpp"
 
@@ -20,19 +21,33 @@ bool never_falls(const std::vector<CurvePoint>& curve) {
   return std::ranges::is_sorted(curve, {}, &CurvePoint::force);
 }
 
+// What is known of a law before its numbers are.
+struct LawFacts {
+  bool is_of_displacement;  // its force, and not of the velocity
+  bool may_have_several_responses;
+  bool is_near_exact;  // its orbit is near that under the exact law
+};
+
+LawFacts facts_of(ForceLaw law) {
+  switch (law) {
+    case ForceLaw::exact:
+      return {.is_of_displacement = false, .may_have_several_responses = false, .is_near_exact = true};
+    case ForceLaw::arctan:
+      return {.is_of_displacement = false, .may_have_several_responses = false, .is_near_exact = true};
+    case ForceLaw::stribeck:
+      return {.is_of_displacement = false, .may_have_several_responses = true, .is_near_exact = false};
+    case ForceLaw::cubic:
+      return {.is_of_displacement = true, .may_have_several_responses = true, .is_near_exact = false};
+  }
+  throw std::logic_error("a law without a row");
+}
+
 // Whether two motions can only come nearer to each other by this law: its force is one of the velocity that
 // never falls, or zero.
 bool is_monotone(ForceLaw law, const SmoothValue& value) {
-  switch (law) {
-    case ForceLaw::exact:
-    case ForceLaw::arctan:
-      return true;
-    case ForceLaw::stribeck:
-      return never_falls(value.curve);
-    case ForceLaw::cubic:
-      return value.cubic == 0.0;
-  }
-  return false;
+  if (!may_have_several_responses(law)) return true;
+  if (!is_of_displacement(law)) return never_falls(value.curve);
+  return std::ranges::all_of(smooth_numbers, [&](const auto number) { return value.*number == 0.0; });
 }
 
 }  // namespace
@@ -42,27 +57,15 @@ bool has_smooth_law(const Element& element) {
 }
 
 bool is_of_displacement(ForceLaw law) {
-  switch (law) {
-    case ForceLaw::exact:
-    case ForceLaw::arctan:
-    case ForceLaw::stribeck:
-      return false;
-    case ForceLaw::cubic:
-      return true;
-  }
-  return false;
+  return facts_of(law).is_of_displacement;
 }
 
 bool may_have_several_responses(ForceLaw law) {
-  switch (law) {
-    case ForceLaw::exact:
-    case ForceLaw::arctan:
-      return false;
-    case ForceLaw::stribeck:
-    case ForceLaw::cubic:
-      return true;
-  }
-  return false;
+  return facts_of(law).may_have_several_responses;
+}
+
+bool is_near_exact(ForceLaw law) {
+  return facts_of(law).is_near_exact;
 }
 
 bool has_smooth_law(const Network& network) {
@@ -86,16 +89,8 @@ void check_curve(const Element& element, const std::vector<CurvePoint>& curve) {
   }
 }
 
-double friction_at_high_speed(const Element& element, const SmoothValue& value, double F) {
-  switch (element.law) {
-    case ForceLaw::exact:
-    case ForceLaw::arctan:
-    case ForceLaw::cubic:
-      return F;
-    case ForceLaw::stribeck:
-      return value.curve.back().force;
-  }
-  return F;
+double friction_at_high_speed(const SmoothValue& value, double F) {
+  return value.curve.empty() ? F : value.curve.back().force;
 }
 
 bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values) {

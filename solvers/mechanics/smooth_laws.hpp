@@ -13,6 +13,8 @@ bool has_smooth_law(const Network& network);
 bool is_of_displacement(ForceLaw law);
 // Whether the response may be one of several under it: it is not monotone, or its numbers decide.
 bool may_have_several_responses(ForceLaw law);
+// Whether the orbit under the exact law is near that under this one.
+bool is_near_exact(ForceLaw law);
 
 // The numbers of the element's smooth law; zero where it has none.
 const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element);
@@ -21,8 +23,8 @@ const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element
 // starts at (0, 0), its speeds rise, and its forces are not negative.
 void check_curve(const Element& element, const std::vector<CurvePoint>& curve);
 
-// The friction at high speed of an element whose value is F [N]: F, or the end of its curve.
-double friction_at_high_speed(const Element& element, const SmoothValue& value, double F);
+// The friction at high speed of an element whose value is F [N]: F, or the end of its curve, where it has one.
+double friction_at_high_speed(const SmoothValue& value, double F);
 
 // Whether two motions can only come nearer to each other by these laws: no spring has a cubic part, and no
 // curve falls.

@@ -26,23 +26,10 @@ using mechanics::ForceLaw;
 using mechanics::Network;
 using periodic::History;
 
-// Whether the orbit under the exact law is near that under a smooth one.
-bool is_near_exact(const Element& element) {
-  switch (element.law) {
-    case ForceLaw::exact:
-    case ForceLaw::arctan:
-      return true;
-    case ForceLaw::stribeck:
-    case ForceLaw::cubic:
-      return false;
-  }
-  return false;
-}
-
 // None where it would not serve.
 std::unique_ptr<periodic::ResponseSolver> solver_of_exact_law(Network network) {
   for (Element& element : network.elements) {
-    if (!is_near_exact(element)) return nullptr;
+    if (!mechanics::is_near_exact(element.law)) return nullptr;
     element.law = ForceLaw::exact;
   }
   if (mechanics::Assembly(network).contacts() > periodic::kMostContacts) return nullptr;
