@@ -1,6 +1,7 @@
 #include "solvers/mechanics/free_directions.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -136,8 +137,13 @@ Eigen::MatrixXd damped_combinations(const Assembly& assembly, const LinearSystem
 }
 
 Eigen::MatrixXd free_of(const MatrixXd& A, const MatrixXd& M) {
-  const MatrixXd X = algebra::null_space(A);
-  if (X.cols() == 0) return MatrixXd(A.cols(), 0);
+  MatrixXd X = MatrixXd::Identity(A.cols(), A.cols());
+  if (A.rows() > 0) {
+    Eigen::FullPivLU<MatrixXd> factor(A);
+    factor.setThreshold(kSameDirection);
+    if (factor.dimensionOfKernel() == 0) return MatrixXd(A.cols(), 0);
+    X = factor.kernel();
+  }
   const Eigen::LLT<MatrixXd> root(X.transpose() * M * X);
   return root.matrixL().solve(X.transpose()).transpose();
 }

@@ -12,8 +12,12 @@
 namespace frahm::mechanics {
 
 // An eigenvalue of a part's stiffness matrix, scaled by its diagonal, that counts as zero: a program has
-// written the matrix with ten digits or more. Elements need no tolerance.
+// written the matrix with ten digits or more.
 inline constexpr double kNoStiffness = 1e-10;
+
+// Combinations of displacements, scaled to length 1, that differ by less are the same: factors of levers and
+// the modes of a structure's damping have rounding.
+inline constexpr double kSameDirection = 1e-12;
 
 // The directions in which a part given by its stiffness matrix K is strained, a row of length 1 for each;
 // k x n.

@@ -266,6 +266,25 @@ TEST_CASE("Modes of free masses: frequency 0 without a ratio, then those that os
   CHECK_THAT(stuck.frequency[1], WithinRel(3.0, kExact));
 }
 
+// The structure's damping has modes of its own, whose rounding must not hold what is free.
+TEST_CASE("Damping of the structure leaves the momentum alone, or takes it as dampers to the ground do") {
+  Network network = pair_with({{"spring", ElementType::spring, kFirst, kSecond}});
+  network.signals = {{"apart", mechanics::between(kFirst, kSecond)}};
+  NetworkValues values{.mass = {1.0, 2.0}, .element = {3.0}, .damping = {0.02}};
+  network.damping = mechanics::DampingModel::modal;
+  const FreeDecay modal = free_decay(network, values, {{0.0, 0.0}, {0.0, 1.0}}, {});
+  CHECK(modal.end == DecayEnd::decayed);
+  CHECK_THAT(modal.masses[0].drift, WithinRel(2.0 / 3.0, 1e-12));
+  CHECK_THAT(modal.masses[1].drift, WithinRel(2.0 / 3.0, 1e-12));
+  CHECK_THAT(modal.masses[2].log_decrement[0], WithinRel(kTurn * 0.02 / std::sqrt(1.0 - 4e-4), 1e-9));
+  network.damping = mechanics::DampingModel::rayleigh;
+  values.damping = {0.1, 0.001};
+  const FreeDecay rayleigh = free_decay(network, values, {{0.0, 0.0}, {0.0, 1.0}}, {});
+  CHECK(rayleigh.end == DecayEnd::decayed);
+  CHECK_THAT(rayleigh.masses[0].rest, WithinRel(2.0 / (0.1 * 3.0), 1e-12));  // momentum over a M
+  CHECK_THAT(rayleigh.masses[1].rest, WithinRel(2.0 / (0.1 * 3.0), 1e-12));
+}
+
 TEST_CASE("Free directions come from the springs, not from rounding") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> decades(-6.0, 6.0);

@@ -129,7 +129,9 @@ const laneHalf = 0.42; // half the width of a mode's lane; lanes are 1 apart
 function laneMarks({ mode, frequency, damping, shape }, { heights, springs }, [low, high, top]) {
   const x = shape.map((value) => mode + laneHalf * value),
     stroke = lineColours[(mode - 1) % lineColours.length];
-  const text = [numberText(frequency, 4), frequency > 0 ? `${numberText(100 * damping, 3)} %` : "free"].join("\n");
+  const text = [numberText(frequency, 4), frequency > 0 ? `${numberText(100 * damping, 3)} %` : "free"].join(
+    "\n",
+  );
   const held = springs[0] && heights[0] > 0;
   return [
     Plot.ruleX([mode], {

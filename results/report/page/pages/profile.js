@@ -24,7 +24,9 @@ function modeTable(group) {
   const rows = Array.from(frequency.values, (omega, k) => [
     k + 1,
     numberText(omega),
-    ...(isTimed ? [numberText(omega / (2 * Math.PI)), omega > 0 ? numberText((2 * Math.PI) / omega) : ""] : []),
+    ...(isTimed
+      ? [numberText(omega / (2 * Math.PI)), omega > 0 ? numberText((2 * Math.PI) / omega) : ""]
+      : []),
     omega > 0 ? numberText(damping[k]) : "free",
   ]);
   const head = isTimed
