@@ -97,6 +97,14 @@ void require_sections_of_kind(const Study& study, const TomlValue& root) {
   }
 }
 
+// The alternatives of Study::choice are in the order of StudyKind.
+void set_kind(StudyKind kind, Study& study) {
+  const auto set = [&]<std::size_t... i>(std::index_sequence<i...>) {
+    ((static_cast<StudyKind>(i) == kind ? void(study.choice.emplace<i>()) : void()), ...);
+  };
+  set(std::make_index_sequence<std::variant_size_v<decltype(study.choice)>>());
+}
+
 void read_heading(const TomlValue& root, Study& study) {
   const TomlEntry* heading = find_entry(root, "study");
   if (!heading)
@@ -104,12 +112,7 @@ void read_heading(const TomlValue& root, Study& study) {
                                 "[study] with schema and kind is missing");
   const TomlSection section(study.source, heading->value, "[study]", "study");
   section.integer("schema");
-  const auto kind = section.choice_as<StudyKind>("kind");
-  if (kind == StudyKind::sweep) study.choice = SweepChoice{};
-  if (kind == StudyKind::decay) study.choice = DecayChoice{};
-  if (kind == StudyKind::transient) study.choice = TransientChoice{};
-  if (kind == StudyKind::tune) study.choice = TuneChoice{};
-  if (kind == StudyKind::identify) study.choice = IdentifyChoice{};
+  set_kind(section.choice_as<StudyKind>("kind"), study);
   study.title = section.text_or("title", "");
   if (study.title.find('\n') != std::string::npos)
     section.fail(rules::not_text, "title", "has more than one line; a title must be one line");
@@ -204,11 +207,8 @@ Study read_document(const StudySource& source, const TomlValue& root, const std:
     study.values = std::move(values);
     refuse_mixed_laws(study);
   }
-  if (study.kind() == StudyKind::sweep) {
-    read_comparison(context, root, study);
-  } else if (study.kind() != StudyKind::tune) {
-    read_motion(context, root, study);
-  }
+  if (study.sweep()) read_comparison(context, root, study);
+  if (study.motion() || study.identify()) read_motion(context, root, study);
   if (study.transient())
     study.transient()->records = read_driving_records(context, root, folder, data, study.network,
                                                       read_record_axis(context, root), "an [[axis]]");
