@@ -7,6 +7,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/free_directions.hpp"
 #include "solvers/transient/driven_motion.hpp"
 #include "solvers/transient/motion_measurement.hpp"
@@ -18,6 +19,24 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kMostStairs = 1 << 20;  // of the finest staircase: a minute or so for a few masses
+
+// Belts that are asked where they are, as records of a velocity 1 that their own multiplies.
+struct FollowedBelts {
+  mechanics::Network network;
+  Record record;
+};
+
+FollowedBelts follow_belts(const mechanics::Network& network, double duration) {
+  FollowedBelts followed{network,
+                         {.name = "a constant velocity",
+                          .of = RecordOf::velocity,
+                          .time = {0.0, duration},
+                          .values = {1.0, 1.0}}};
+  for (mechanics::Excitation& each : followed.network.excitations) {
+    if (each.kind == mechanics::ExcitationKind::belt) each.kind = mechanics::ExcitationKind::recorded_motion;
+  }
+  return followed;
+}
 
 // How the frequency runs: the time to its end, and phase and frequency until then.
 struct Running {
@@ -226,8 +245,28 @@ double stepping_frequency(const mechanics::Assembly& assembly, const mechanics::
   return kSteps * periodic::kStepRate / options.duration;
 }
 
+bool asks_where_belts_are(const mechanics::Network& network) {
+  const auto asks = [&](const mechanics::Element& element) {
+    const mechanics::ElementKind& kind = mechanics::kind_of(element);
+    return (kind.holds || kind.stop != nullptr) && mechanics::is_on_belt(network, element.along);
+  };
+  const auto is_on_one = [&](const mechanics::Signal& each) {
+    return mechanics::is_on_belt(network, each.along);
+  };
+  return std::ranges::any_of(network.elements, asks) || std::ranges::any_of(network.signals, is_on_one);
+}
+
 ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
                            const InitialState& initial, const ForcedOptions& asked) {
+  if (asks_where_belts_are(network)) {
+    const FollowedBelts followed = follow_belts(network, asked.duration);
+    ForcedOptions options = asked;
+    for (std::size_t k = 0; k < network.excitations.size(); ++k) {
+      if (network.excitations[k].kind == mechanics::ExcitationKind::belt)
+        options.records.push_back({k, &followed.record});
+    }
+    return forced_motion(followed.network, values_at, initial, options);
+  }
   const mechanics::Assembly assembly(network, mechanics::FreeMasses::allowed);
   ForcedOptions options = asked;
   options.from = stepping_frequency(assembly, values_at(asked.from), asked);

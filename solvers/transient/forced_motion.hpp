@@ -50,6 +50,10 @@ struct ForcedMotion {
   std::vector<std::vector<Extremum>> extrema = {};  // of each mass, then of each signal; empty: not asked for
 };
 
+// Whether some element or signal asks where a belt is, not only for its velocity: the spring by which
+// something is pulled along.
+bool asks_where_belts_are(const mechanics::Network& network);
+
 // The frequency [rad/s] that limits the length of a step. It is options.from; but where nothing in the
 // excitation oscillates it means nothing else, and free masses may have no rate of their own: then it is one
 // of which the duration has a hundred steps.
@@ -62,6 +66,8 @@ double stepping_frequency(const mechanics::Assembly& assembly, const mechanics::
 // which makes its mean over each stair zero. Stairs are halved until the motion changes by less than
 // kRunUpTolerance of its largest peak. A prescribed motion has its acceleration's part from the changing
 // frequency too: y'' = (i alpha - omega^2) Y e^{i phi}.
+//
+// A belt that is asked where it is moves as under a record of its velocity, V t from the start on.
 //
 // Records are exact too: polynomials from one of their samples to the next, at which passages begin.
 //

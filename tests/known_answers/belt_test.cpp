@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "solvers/laws/damper_bend.hpp"
@@ -194,6 +195,35 @@ TEST_CASE("The smoothed law on a belt differs from the exact one as its slope le
   of_smooth.solve(values);
   CHECK_THAT(of_smooth["block_peak"], WithinRel(of_exact["block_peak"], kSmoothed));
   CHECK_THAT(of_smooth["energy_input"], WithinRel(of_exact["energy_input"], kSmoothed));
+}
+
+// With u = x - V t:  m u'' + c u' + k u = P cos(omega t), u(0) = 0, u'(0) = -V.
+TEST_CASE("A mass pulled through a spring and a damper swings about where the belt is") {
+  Network network{
+      .masses = {"block"},
+      .prescribed = {"belt"},
+      .elements = {{"rope", ElementType::spring, belt, block}, {"damper", ElementType::damper, belt, block}},
+      .excitations = {{ExcitationKind::belt, 0, 0}, {ExcitationKind::force, 0, 1}},
+      .signals = {{"lag", between(block, belt)}}};
+  const double m = 2.0, k = 8.0, c = 0.4, V = 0.7, omega = 1.3;
+  for (const double P : {0.0, 0.5}) {
+    const NetworkValues values{
+        .omega = omega, .mass = {m}, .element = {k, c}, .excitation = {{V, 0.0}, {P, 0.0}}};
+    const ForcedMotion motion = forced_motion(network, [&](double) { return values; }, {},
+                                              {.from = omega, .duration = 30.0, .samples = 61});
+    REQUIRE(motion.failure.empty());
+    CHECK(motion.energy.balance < kBalance);
+    const double b = c / (2.0 * m), w = std::sqrt(k / m - b * b);
+    const std::complex<double> X = P / std::complex<double>(k - m * omega * omega, c * omega);
+    const double A = -X.real(), B = (-V + omega * X.imag() + b * A) / w;
+    for (std::size_t i = 0; i < motion.history.time.size(); ++i) {
+      const double t = motion.history.time[i];
+      const double u = std::exp(-b * t) * (A * std::cos(w * t) + B * std::sin(w * t)) +
+                       (X * std::polar(1.0, omega * t)).real();
+      CHECK_THAT(motion.history.displacement[0][i], WithinAbs(V * t + u, 1e-12));
+      CHECK_THAT(motion.history.displacement[1][i], WithinAbs(u, 1e-12));
+    }
+  }
 }
 
 }  // namespace

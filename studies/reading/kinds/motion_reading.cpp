@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/transient/forced_motion.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/map/output_reading.hpp"
 #include "studies/reading/quantities/expression.hpp"
@@ -65,6 +66,11 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
     section.fail(rules::beyond_schema(rules::key_without_use), "sweep_to",
                  "a run-up consists of steps of constant frequency, but a record ([[excitation.record]]) "
                  "runs in its own time; leave out one of them");
+  if (transient::asks_where_belts_are(reading.result.network))
+    section.fail(
+        rules::beyond_schema(rules::key_without_use), "sweep_to",
+        "a run-up consists of steps of constant frequency, but an element or a signal asks where a node "
+        "of constant velocity is, which moves on in its own time; leave out one of them");
   if (std::all_of(forces.begin(), forces.end(), [](const auto& force) { return force.order == 0; }))
     section.fail(rules::beyond_schema(rules::key_without_use), "sweep_to",
                  "the excitation is constant, so it has no frequency that could run");

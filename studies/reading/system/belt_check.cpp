@@ -20,10 +20,10 @@ bool is_on_belt(const mechanics::Network& network, const mechanics::Node& node) 
 
 }  // namespace
 
-void check_belts(const NetworkReading& reading) {
+void check_belts(const NetworkReading& reading, StudyKind kind) {
   const mechanics::Network& network = reading.result.network;
   const auto& values = reading.result.values;
-  if (!mechanics::has_belt(network)) return;
+  if (!mechanics::has_belt(network) || kind == StudyKind::transient) return;
   const StudySource& source = reading.context.source;
   const auto name = [&](const mechanics::Node& node) { return network.prescribed[node.index]; };
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
@@ -34,7 +34,8 @@ void check_belts(const NetworkReading& reading) {
       throw source.error_at(
           rules::wrong_node, values.value(e).position,
           "{}: \"{}\" moves for ever at a constant velocity, so the force of a {} would grow with its "
-          "displacement; only coulomb, damper, inerter, maxwell and jenkins elements may touch it",
+          "displacement; only coulomb, damper, inerter, maxwell and jenkins elements may touch it (in a "
+          "transient any element)",
           values.value(e).where, name(share.node), mechanics::kind_of(element).name);
     }
   }
@@ -43,7 +44,8 @@ void check_belts(const NetworkReading& reading) {
       if (!is_on_belt(network, node)) continue;
       throw source.error_at(
           rules::wrong_node, values.signals[i].position,
-          "signal \"{}\": \"{}\" moves for ever at a constant velocity, and so would the signal",
+          "signal \"{}\": \"{}\" moves for ever at a constant velocity, and so would the signal (a transient "
+          "may have it)",
           network.signals[i].name, name(node));
     }
   }

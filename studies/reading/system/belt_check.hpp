@@ -4,7 +4,8 @@
 
 namespace frahm::studies {
 
-// Refuses elements and signals that ask for the displacement of a node that moves on for ever.
-void check_belts(const NetworkReading& reading);
+// Refuses elements and signals that ask for the displacement of a node that moves on for ever, except in a
+// transient, which ends.
+void check_belts(const NetworkReading& reading, StudyKind kind);
 
 }  // namespace frahm::studies

@@ -207,7 +207,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
     check_every_motion_is_felt(reading, excitation->value);
   }
   read_signals(reading, root);
-  check_belts(reading);
+  check_belts(reading, kind);
   check_masses_are_held(context, reading.result, reading.masses, kind);
   return std::move(reading.result);
 }
