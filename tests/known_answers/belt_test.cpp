@@ -204,7 +204,7 @@ TEST_CASE("A mass pulled through a spring and a damper swings about where the be
       .prescribed = {"belt"},
       .elements = {{"rope", ElementType::spring, belt, block}, {"damper", ElementType::damper, belt, block}},
       .excitations = {{ExcitationKind::belt, 0, 0}, {ExcitationKind::force, 0, 1}},
-      .signals = {{"lag", between(block, belt)}}};
+      .signals = {{"lag", between(belt, block)}}};
   const double m = 2.0, k = 8.0, c = 0.4, V = 0.7, omega = 1.3;
   for (const double P : {0.0, 0.5}) {
     const NetworkValues values{
