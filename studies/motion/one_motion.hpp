@@ -27,8 +27,8 @@ transient::InitialState initial_state(const Study& study);
 // The same at SI values of all parameters, completed.
 transient::InitialState initial_state(const Study& study, std::span<const double> parameters);
 
-// Throws StudyError for a decay that has no end of its own, as nothing oscillates and nothing stops it, and no
-// duration; passes on mechanics::MechanicsError.
+// Throws StudyError for a decay that has no end of its own, as nothing oscillates and nothing stops it, and
+// no duration; passes on mechanics::MechanicsError.
 void check_duration(const Study& study, const mechanics::NetworkValues& values);
 
 // Throws StudyError for invalid values, and if the motion cannot be completed; passes on what `watch` throws.
