@@ -92,6 +92,7 @@ class FactReading {
     } else if (key && key->form == KeyForm::settings && entry.value.as<TomlTable>()) {
       add_settings(*entry.value.as<TomlTable>(), section, name, key);
     } else if (entry.value.as<TomlTable>() && !keys_of(path).empty()) {
+      if (key && key->use != Use::nowhere) add_presence(name, key);
       add_table(entry.value, path, name);
     } else {
       const bool is_of_table = is_in_unit_of_table(key);
@@ -130,6 +131,13 @@ class FactReading {
       sequence.members.push_back(std::move(name));
     }
     facts_.sequences.push_back(std::move(sequence));
+  }
+
+  // That a table is there says something by itself: `branches = {}` is `branches = true`.
+  void add_presence(const std::string& name, const StudyKey* key) {
+    Fact fact{.name = name, .tables = inside_, .key = key};
+    fact.tables.push_back(name);
+    add_value({.position = {}, .content = true}, std::move(fact));
   }
 
   // fact: all but its value.

@@ -97,6 +97,13 @@ TEST_CASE("a default that is written out and the unit of a value change nothing"
   CHECK(of(with(si, "zeta = 0.05", "zeta = { value = 50, unit = \"g/s\" }")) == of(si));
 }
 
+TEST_CASE("a table without a key of its own says that it is there") {
+  const std::string output = base + "[output]\n";
+  CHECK(of(output) == of(base));
+  CHECK(of(output + "branches = {}\n").grid != of(base).grid);
+  CHECK(of(output + "branches = {}\n") == of(output + "branches = true\n"));
+}
+
 TEST_CASE("a unit that other numbers inherit is part of what they say") {
   // The axis stays the same in SI, and the parameter's own value is none of the map's; of 0.1 in the unit of
   // the axis there is another point.
