@@ -66,18 +66,21 @@ class FactReading {
   }
 
  private:
-  void add_table(const TomlValue& table, const std::string& section, const std::string& where) {
+  // outer_parameter: of the table around it.
+  void add_table(const TomlValue& table, const std::string& section, const std::string& where,
+                 const std::string& outer_parameter = "") {
     if (labels_ == Labels::left_out && has_labels_alone(section)) return;
     if (!where.empty()) {
       facts_.tables.insert(where);
       inside_.push_back(where);
     }
     const std::string unit = unit_of_numbers(table, section);
-    const std::string* parameter = text_in(table, "parameter");
+    const std::string* own = text_in(table, "parameter");
+    const std::string parameter = own ? *own : outer_parameter;
     for (const TomlEntry& entry : *table.as<TomlTable>()) {
       const bool is_read = labels_ == Labels::read;
       if (!is_read && (is_label(section, entry.key) || (!unit.empty() && entry.key == "unit"))) continue;
-      add_entry(entry, section, where, unit, parameter ? *parameter : "");
+      add_entry(entry, section, where, unit, parameter);
     }
     if (!where.empty()) inside_.pop_back();
   }
@@ -93,7 +96,7 @@ class FactReading {
       add_settings(*entry.value.as<TomlTable>(), section, name, key);
     } else if (entry.value.as<TomlTable>() && !keys_of(path).empty()) {
       if (key && key->use != Use::nowhere) add_presence(name, key);
-      add_table(entry.value, path, name);
+      add_table(entry.value, path, name, parameter);
     } else {
       const bool is_of_table = is_in_unit_of_table(key);
       add_value(entry.value, {.name = name,

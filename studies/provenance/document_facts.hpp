@@ -25,7 +25,7 @@ struct Fact {
   const StudyKey* key = nullptr;    // its row of the table of keys; none of a parameter
   TomlValue value{};
   std::string unit{};       // the unit that its table has for its numbers; "" for none
-  std::string parameter{};  // the parameter whose values its table or itself gives; "" for none
+  std::string parameter{};  // the parameter that its table, one around it or itself is about; "" for none
   bool is_list = false;
   std::vector<Item> items{};  // one unless it is a list
 };

@@ -105,17 +105,28 @@ class FactText {
     return fmt::format("{{{} }}", entries);
   }
 
-  // Values along an axis count in SI. Elsewhere a number is written with the units in which it can be meant:
-  // its own, otherwise that of its parameter where the study uses it, and where the study defines it.
+  // A bare number in SI, by the unit that its reader takes for it.
   std::string number(double value, const Fact& fact, const std::string& parameter) const {
+    const std::string_view section = fact.key->section;
     const auto index = study_->parameters.find(parameter);
-    if (index && std::string_view(fact.key->section).starts_with("axis"))
-      return fmt::format("{}", value * usual_unit(*study_, *index).si_factor);
-    std::string text = fmt::format("{}", value);
-    if (!fact.unit.empty()) return fmt::format("{} {}", text, fact.unit);
-    if (!index) return text;
-    const auto& defined_in = study_->parameters.list[*index].unit;
-    return fmt::format("{} {} {}", text, usual_unit(*study_, *index).text,
+    const auto& band = study_->tune() ? study_->tune()->band : std::nullopt;
+    if (fact.key->form == KeyForm::settings || fact.key->form == KeyForm::list_of_settings)
+      return index ? in_unit_of_parameter(value, *index) : fmt::format("{}", value);
+    if (section == "design.schedule" && index && band)
+      return fmt::format("{}", value * usual_unit(*study_, *index).si_factor / band->unit.si_factor);
+    if (section == "constraint.band" && fact.unit.empty() && band)
+      return fmt::format("{}", value * band->unit.si_factor);
+    if (index) return fmt::format("{}", value * usual_unit(*study_, *index).si_factor);
+    if (fact.unit.empty()) return fmt::format("{}", value);
+    // A column may give its number in the unit already.
+    return section == "column" ? fmt::format("{} {}", value, fact.unit) : in_si(value, fact.unit);
+  }
+
+  // With all units in which it can be meant: that of the parameter where the study uses it, and where it is
+  // defined.
+  std::string in_unit_of_parameter(double value, std::size_t parameter) const {
+    const auto& defined_in = study_->parameters.list[parameter].unit;
+    return fmt::format("{} {} {}", value, usual_unit(*study_, parameter).text,
                        defined_in ? defined_in->text : "");
   }
 

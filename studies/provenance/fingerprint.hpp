@@ -22,7 +22,7 @@ struct Tiling {
 // physics: Use::physics, the values of the parameters (of those on an axis only that they are on one), contents
 // of files, version of the solver. grid: Use::grid and Use::shown, the SI values along the axes and the tiles.
 // Titles and what is said on pages (Use::label), comments, names of files, the order of keys and parameters,
-// defaults that are written out, and the unit of a value and of an axis change neither.
+// defaults that are written out, and the unit in which one and the same number is given change neither.
 engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
                                 std::span<const std::string> quantities = {});
 
