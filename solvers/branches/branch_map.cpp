@@ -17,7 +17,7 @@
 namespace frahm::periodic {
 
 BranchMap::BranchMap(const mechanics::Network& network, const ValuesAlong& values, double low, double high)
-    : assembly_(network),
+    : assembly_(network, mechanics::FreeMasses::allowed),
       values_(values),
       low_(low),
       high_(high),
@@ -83,6 +83,12 @@ Eigen::MatrixXd BranchMap::scaled(const Eigen::MatrixXd& by_state) const {
   return root_ * A * root_inverse_;
 }
 
+Eigen::VectorXd BranchMap::oscillators_at_section() const {
+  Eigen::VectorXd u(flow_.equations().oscillators());
+  flow_.equations().oscillators_at(section_, flow_.orders(), u);
+  return u;
+}
+
 // Contacts that stick throughout keep their rest position (multiplier +1): the residual has no part of it.
 Shot BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent) {
   Shot shot;
@@ -105,6 +111,8 @@ Shot BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent) {
     shot.to_rest = shift_projector(rest_directions(eq, shot.stuck_throughout));
   Eigen::VectorXd residual = (half_period_ ? -1.0 : 1.0) * shot.passage.end - z;
   if (shot.to_rest.size() > 0) residual -= shot.to_rest * residual;
+  shot.closing = closing_of(flow_, shot.passage);
+  if (shot.closing.is_modulo()) shot.closing.apply(z, oscillators_at_section(), residual);
   residual.segment(n, n) /= eq.step;
   shot.residual = root_ * residual / scale_;
   return shot;
@@ -114,6 +122,7 @@ Shot BranchMap::shoot(const Eigen::VectorXd& y) {
   Shot shot = pass(y, Tangent::followed);
   if (shot.failed) return shot;
   Eigen::MatrixXd A = (half_period_ ? -1.0 : 1.0) * shot.passage.tangent;
+  shot.closing.project(A);
   A.diagonal().array() -= 1.0;
   if (shot.to_rest.size() > 0) A -= shot.to_rest;
   shot.derivative.resize(y.size() - 1, y.size());
@@ -136,8 +145,11 @@ Eigen::VectorXd BranchMap::by_parameter(const Shot& shot) {
   Eigen::VectorXd start = Eigen::VectorXd::Zero(eq.states());
   start.segment(n, n) = by.log_step * shot.passage.segments.front().z.segment(n, n);
   Eigen::VectorXd end = sensitivity_.carry(steps_.steps(), shot.passage.changes, start);
-  end.segment(n, n) = (end.segment(n, n) - by.log_step * shot.passage.end.segment(n, n)) / eq.step;
-  if (half_period_) end *= -1.0;
+  const double sign = half_period_ ? -1.0 : 1.0;
+  end *= sign;
+  if (shot.closing.is_modulo())
+    shot.closing.apply_change(eq, by, shot.passage.segments.front().z, oscillators_at_section(), end);
+  end.segment(n, n) = (end.segment(n, n) - sign * by.log_step * shot.passage.end.segment(n, n)) / eq.step;
   if (shot.to_rest.size() > 0) end -= shot.to_rest * end;
   return (high_ - low_) / scale_ * (root_ * end);
 }
@@ -150,6 +162,7 @@ AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {
   orbit.multiple = multiple_;
   orbit.passage = std::move(shot.passage);
   orbit.stuck_throughout = shot.stuck_throughout;
+  orbit.closing = shot.closing;
   orbit.residual = shot.residual.norm() / std::max(1.0, y.head(y.size() - 1).norm());
   orbit.status = orbit.passage.margin < kGrazing ? Status::grazing : Status::ok;
   judge_stability(flow_, orbit);
@@ -187,6 +200,7 @@ Eigen::VectorXd BranchMap::gap_after(int part, const Eigen::VectorXd& y) {
   if (passage.failure != nullptr) return {};
   const Eigen::Index n = flow_.equations().masses();
   Eigen::VectorXd gap = passage.end - z;
+  closing_of(flow_, passage).remove(gap);
   gap.segment(n, n) /= flow_.equations().step;
   return root_ * gap / scale_;
 }
@@ -229,7 +243,8 @@ std::optional<double> BranchMap::section_of_least_slip(const Eigen::VectorXd& y)
 }
 
 Eigen::VectorXcd BranchMap::multipliers(const Shot& shot) {
-  const Eigen::MatrixXd moving = moving_part(flow_, shot.passage.tangent, shot.stuck_throughout);
+  const Eigen::MatrixXd moving =
+      moving_part(flow_, shot.passage.tangent, shot.stuck_throughout, shot.closing);
   Eigen::VectorXcd values = algebra::eigenvalues(moving);
   if (half_period_) values = values.array().square();
   std::ranges::sort(values, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });

@@ -20,6 +20,7 @@ struct Shot {
   Eigen::MatrixXd derivative;  // by y, states x (states + 1)
   AnyPassage passage;
   ContactMask stuck_throughout = 0;
+  Closing closing;
   Eigen::MatrixXd to_rest;  // projects onto what keeps its rest position; empty: nothing does
 };
 
@@ -81,6 +82,7 @@ class BranchMap {
   double length() const { return (half_period_ ? 0.5 : 1.0) * flow_.equations().period; }
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
   Eigen::VectorXd by_parameter(const Shot& shot);
+  Eigen::VectorXd oscillators_at_section() const;
   double middle_of(const Segment<kAnySize, kAnySize>& stretch) const;
   int slipping_sliders(const Segment<kAnySize, kAnySize>& stretch) const;
 

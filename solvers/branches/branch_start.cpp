@@ -45,7 +45,7 @@ AnyOrbit find_start(BranchMap& map, int multiple) {
   AnyOrbit orbit;
   const mechanics::LinearSystem& system = map.system();
   const std::vector<UndampedMode> undamped = undamped_modes(system);
-  if (!Search::serves(system, undamped)) {
+  if (!Search::serves(map.assembly(), system, undamped)) {
     find_among_several(map, multiple, orbit);
   } else {
     Search(map.assembly(), map.flow()).find(system, undamped, true, orbit);
@@ -70,7 +70,7 @@ std::vector<AnyOrbit> find_stable(BranchMap& map, double parameter, const Orbits
   const mechanics::LinearSystem& system = map.system();
   const std::vector<UndampedMode> undamped = undamped_modes(system);
   AnyOrbit orbit;
-  if (Search::serves(system, undamped)) {
+  if (Search::serves(map.assembly(), system, undamped)) {
     Search(map.assembly(), map.flow()).find(system, undamped, true, orbit);
     if (orbit.is_found()) orbits.push_back(std::move(orbit));
   } else {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/continuation.hpp"
 #include "solvers/orbits/reasons.hpp"
+#include "solvers/orbits/runaway.hpp"
 
 namespace frahm::periodic {
 
@@ -21,14 +23,15 @@ class OrbitSearch {
  public:
   // Both must outlive the search.
   OrbitSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow)
-      : flow_(flow), continuation_(flow), rest_(assembly, flow) {}
+      : assembly_(assembly), flow_(flow), continuation_(flow), rest_(assembly, flow) {}
 
   void forget() { continuation_.forget(); }
   void begin_row() { continuation_.begin_row(); }
 
   // Whether a system has one orbit at most.
-  static bool serves(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped) {
-    return system.monotone || has_none(system, undamped);
+  static bool serves(const mechanics::Assembly& assembly, const mechanics::LinearSystem& system,
+                     const std::vector<UndampedMode>& undamped) {
+    return system.monotone || !why_none(assembly, system, undamped).empty();
   }
   // Finds the orbit of the flow, which is set to `system`. certify: also multipliers and error bound.
   void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped, bool certify,
@@ -40,11 +43,16 @@ class OrbitSearch {
   bool find_otherwise(int way, const mechanics::LinearSystem& system, bool certify, Orbit<N, H>& orbit);
 
  private:
-  void fail_unbounded(Orbit<N, H>& orbit);
-  static bool has_none(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped) {
-    return (system.monotone || system.bends.count() == 0) && is_unbounded_even_held(system, undamped);
+  void fail_unbounded(const std::string& reason, Orbit<N, H>& orbit);
+  // "" where there may be an orbit.
+  static std::string why_none(const mechanics::Assembly& assembly, const mechanics::LinearSystem& system,
+                              const std::vector<UndampedMode>& undamped) {
+    if ((system.monotone || system.bends.count() == 0) && is_unbounded_even_held(system, undamped))
+      return kUnbounded;
+    return runaway(assembly, system);
   }
 
+  const mechanics::Assembly& assembly_;
   Flow<N, H>& flow_;
   Continuation<N, H> continuation_;
   RestSearch<N, H> rest_;
@@ -53,7 +61,8 @@ class OrbitSearch {
 template <int N, int H>
 void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped,
                              bool certify, Orbit<N, H>& orbit) {
-  if (has_none(system, undamped)) return fail_unbounded(orbit);
+  if (const std::string reason = why_none(assembly_, system, undamped); !reason.empty())
+    return fail_unbounded(reason, orbit);
   continuation_.find(system, orbit);
   rest_.settle(orbit);
   if (certify && orbit.is_found()) judge_stability(flow_, orbit);
@@ -80,9 +89,9 @@ bool OrbitSearch<N, H>::find_otherwise(int way, const mechanics::LinearSystem& s
 }
 
 template <int N, int H>
-void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
+void OrbitSearch<N, H>::fail_unbounded(const std::string& reason, Orbit<N, H>& orbit) {
   orbit.status = Status::unbounded;
-  orbit.reason = kUnbounded;
+  orbit.reason = reason;
   orbit.residual = kNone;
   orbit.newton_iterations = orbit.passages = 0;
   continuation_.forget();

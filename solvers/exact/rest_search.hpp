@@ -68,6 +68,7 @@ class RestSearch {
   ContactMask let_go(ContactMask contacts, const Orbit<N, H>& orbit);
   ContactMask varies_most(ContactMask held);
   ContactMask slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const;
+  bool must_balance(const Orbit<N, H>& orbit) const;
   double time_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   void hold_all(Orbit<N, H>& orbit);
 
@@ -356,7 +357,7 @@ template <int N, int H>
 bool RestSearch<N, H>::shift_bent(Orbit<N, H>& orbit, int& passages) {
   constexpr int kMostSteps = 40;
   constexpr double kAgrees = 1e-11;  // of the orbit's size
-  if (forces_.cuts_through(orbit.stuck_throughout, orbit).in_loops) return false;
+  if (forces_.cuts_through(orbit.stuck_throughout, orbit).in_loops || must_balance(orbit)) return false;
   Orbit<N, H> moved = orbit;
   Family family;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -376,11 +377,17 @@ bool RestSearch<N, H>::shift_bent(Orbit<N, H>& orbit, int& passages) {
   return false;
 }
 
+// Whether mean forces of contacts that stick throughout must balance one another along free directions.
+template <int N, int H>
+bool RestSearch<N, H>::must_balance(const Orbit<N, H>& orbit) const {
+  return rest_directions(flow_.equations(), orbit.stuck_throughout).balanced.rows() > 0;
+}
+
 template <int N, int H>
 bool RestSearch<N, H>::shift_to_middle(Orbit<N, H>& orbit) {
   const ContactMask stuck = orbit.stuck_throughout;
   const OrbitCuts cuts = forces_.cuts_through(stuck, orbit);
-  if (cuts.in_loops) return false;
+  if (cuts.in_loops || must_balance(orbit)) return false;
   const RestShift found = middle_shift(forces_across(cuts.all, orbit));
   if (found.verdict != RestShift::Verdict::inside) return false;
   shift_orbit<N, H>(rest_directions(flow_.equations(), stuck).E * found.delta, orbit);

@@ -42,7 +42,7 @@ void SizedSolver<N, H>::search_row(std::span<const mechanics::NetworkValues> poi
     if (found[i].status != Status::not_computed) continue;
     found[i].reason = set(points[i]);
     if (!found[i].reason.empty()) continue;
-    if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {
+    if (OrbitSearch<N, H>::serves(assembly_, system_, undamped_modes_)) {
       search_.begin_row();
       record(i, solve());
       continue;
@@ -90,7 +90,7 @@ template <int N, int H>
 void SizedSolver<N, H>::slow_sweep_on() {
   constexpr int kHalvings = 10;  // an orbit that ends does so within a thousandth of the step
   const mechanics::NetworkValues here = values_;
-  if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {
+  if (OrbitSearch<N, H>::serves(assembly_, system_, undamped_modes_)) {
     search_.begin_row();
     search_.find(system_, undamped_modes_, true, orbit_);
     if (orbit_.is_found()) slow_sweep_.stand_on(orbit_);

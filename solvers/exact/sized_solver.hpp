@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <complex>
 #include <memory>
+#include <numbers>
 
 #include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/exact/coexistence.hpp"
@@ -25,7 +26,7 @@ class SizedSolver final : public ResponseSolver {
  public:
   SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities, Path path,
               const OrbitsWanted& wanted)
-      : assembly_(network),
+      : assembly_(network, mechanics::FreeMasses::allowed),
         wanted_(wanted),
         search_(assembly_, flow_),
         coexistence_(assembly_, flow_, wanted),
@@ -144,7 +145,7 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   const LimitedSearch limit(flow_.work());
   if (wanted_.is_slow_sweep()) {
     slow_sweep_on();
-  } else if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {
+  } else if (OrbitSearch<N, H>::serves(assembly_, system_, undamped_modes_)) {
     search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
   } else {
     before_ = coexistence_.find(system_, &before_);
@@ -189,8 +190,8 @@ std::vector<std::complex<double>> SizedSolver<N, H>::multipliers() {
   if (!has_response()) return {};
   if (orbit_.passage.margin < kGrazing && orbit_.passage.events > 0) return {};
   follow_tangent(flow_, orbit_);
-  Eigen::VectorXcd values =
-      algebra::eigenvalues(moving_part(flow_, orbit_.passage.tangent, orbit_.stuck_throughout));
+  Eigen::VectorXcd values = algebra::eigenvalues(
+      moving_part(flow_, orbit_.passage.tangent, orbit_.stuck_throughout, orbit_.closing));
   if (orbit_.half_period) values = values.array().square();
   std::ranges::sort(values, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return {values.begin(), values.end()};
@@ -237,6 +238,9 @@ History SizedSolver<N, H>::history(std::span<const double> phases, SliderForces 
   const std::vector<mechanics::Incidence> signals = mechanics::signal_incidences(network);
   const Eigen::Index n = flow_.equations().masses();
   const double step = flow_.equations().step;
+  OrbitSteps<N, H> steps(flow_);
+  if (orbit_.closing.is_modulo()) steps.lay_out(orbit_);
+  const RidingFrame& frame = steps.frame();
   for (const double phase : phases) {
     const auto [from_section, sign] = place_on_orbit(phase, orbit_.section, orbit_.half_period);
     const double at = from_section / flow_.fundamental_rate();
@@ -247,6 +251,9 @@ History SizedSolver<N, H>::history(std::span<const double> phases, SliderForces 
     Instant<N, H> instant;
     flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start),
                      orbit_.section + from_section, mode, instant);
+    if (frame.moves())
+      instant.z.head(n) +=
+          frame.moved_on(at, sign * (phase / (2.0 * std::numbers::pi) - 0.5) * flow_.equations().period);
     result.time.push_back(phase / reported_system().omega);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < n; ++mass) {

@@ -97,6 +97,7 @@ class StableSearch {
   };
   Approach approach(const typename S::State& z, int multiple, const mechanics::LinearSystem& system,
                     Orbits& found);
+  void coast(typename S::State& z) const;
   bool is_over(Orbits& found) const;
   Index known(const typename S::State& z, double within, const Orbits& found) const;
   int likely_multiple(const std::vector<typename S::State>& trail) const;
@@ -124,6 +125,7 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State&
                                                               const mechanics::LinearSystem& system,
                                                               Orbits& found) {
   constexpr double kNear = 0.02, kThere = 1e-4;
+  coast(z);
   std::vector<typename S::State> trail{z};
   int periods = 0;
   for (int at = 4; at <= longest; at *= 3) {
@@ -140,6 +142,18 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State&
     if (near && (moved < kNear || distance(z, found.stable[*near]) < kNear)) return near;
   }
   return std::nullopt;
+}
+
+// Velocities that nothing takes up do not change but by the forcing: they begin as their orbit has them.
+template <int N, int H>
+void StableSearch<N, H>::coast(typename S::State& z) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  if (!eq.has_free_masses) return;
+  typename S::Oscillators u(eq.oscillators());
+  eq.oscillators_at(0.0, flow_.orders(), u);
+  typename S::State residual = S::State::Zero(eq.states());
+  Closing(eq.free, 0).apply(z, u, residual);
+  z += residual;
 }
 
 // Whether all motions of a point together have taken the work that it may take.

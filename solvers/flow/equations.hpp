@@ -10,6 +10,7 @@
 #include "solvers/flow/sizes.hpp"
 #include "solvers/flow/sparse_system.hpp"
 #include "solvers/flow/step_bends.hpp"
+#include "solvers/flow/step_free.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/recorded_columns.hpp"
 
@@ -42,7 +43,9 @@ struct StepEquations {
   // K_inverse: of K with springs in the free directions that make them swing at 1 rad a step.
   typename S::Square M, C, K, M_inverse, K_inverse;
   typename S::Square M_root, K_root, M_root_inverse, K_root_inverse;  // upper Cholesky factors: M = R^T R
-  bool has_free_masses = false;                   // some directions of the masses are free
+  // K_root: with the springs of K_inverse.
+  bool has_free_masses = false;  // some directions of the masses are free
+  StepFree free;
   typename S::VectorByOscillators force;          // f(t) = force * u(t) [N]
   typename S::VectorByOscillators force_pull;     // M^-1 force
   typename S::VectorByOscillators applied_force;  // the part of it that acts on the masses from outside
@@ -103,6 +106,17 @@ struct StepEquations {
       for (Eigen::Index k = first_recorded() + 1; k < rows.cols(); ++k)
         result.col(k) = recorded_rate[k - 1 - first_recorded()] * rows.col(k - 1);
     }
+  }
+
+  // The integral over t of the oscillating part of row * u(t), of zero mean; constants and records are left
+  // out.
+  Eigen::MatrixXd integrated(const Eigen::MatrixXd& rows) const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.rows(), rows.cols());
+    for (Eigen::Index k = 0; k < phase_rate.size(); ++k) {
+      result.col(1 + 2 * k) = -rows.col(2 + 2 * k) / phase_rate[k];
+      result.col(2 + 2 * k) = rows.col(1 + 2 * k) / phase_rate[k];
+    }
+    return result;
   }
 
   // du/dt of the oscillators u [1/step].

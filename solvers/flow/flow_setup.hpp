@@ -80,6 +80,19 @@ void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
 }
 
 template <int N, int H>
+void set_free(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
+  StepFree& free = eq.free;
+  free.R = system.free_directions;
+  if (!free.any()) return;
+  free.along = free.R.transpose() * system.M;
+  free.resisted = system.resisted;
+  free.bent = mechanics::strained_along(eq.bends.B, free.R);
+  for (Eigen::Index j = 0; j < free.bent.rows(); ++j) {
+    if (contains(eq.bends.of_velocity, j)) free.bent.row(j).setZero();
+  }
+}
+
+template <int N, int H>
 void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   StepEquations<N, H>& eq = equations_;
   const double h = eq.step;
@@ -88,12 +101,16 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.K = system.K;
   eq.M_inverse = eq.M.inverse();
   eq.has_free_masses = system.free_directions.cols() > 0;
-  if (eq.has_free_masses)
-    eq.K_inverse = mechanics::held_compliance(system, 1.0 / h);
-  else
-    eq.K_inverse = eq.K.inverse();
   eq.M_root = algebra::upper_root(eq.M);
-  eq.K_root = algebra::upper_root(eq.K);  // of orbits, whose masses are all held
+  if (eq.has_free_masses) {
+    eq.K_inverse = mechanics::held_compliance(system, 1.0 / h);
+    // K + M R R^T M/h^2
+    const Eigen::MatrixXd along = system.free_directions.transpose() * system.M / h;
+    eq.K_root = algebra::upper_root(typename S::Square(eq.K + along.transpose() * along));
+  } else {
+    eq.K_inverse = eq.K.inverse();
+    eq.K_root = algebra::upper_root(eq.K);
+  }
   eq.M_root_inverse = eq.M_root.inverse();
   eq.K_root_inverse = eq.K_root.inverse();
   eq.W = system.W;
@@ -106,6 +123,7 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.D = system.D;
   eq.internal_stiffness = system.internal_stiffness;
   eq.internal_rate = h * system.internal_rate;
+  set_free(system, eq);
   eq.MW = eq.M_inverse * eq.W;
   eq.mobility = eq.W.transpose() * eq.MW;
   eq.compliance = eq.mobility.diagonal();
@@ -204,6 +222,8 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   set_record_sizes(system.recorded_size, eq);
   on_oscillators(system.constant_force, system.force, system.recorded_force, eq.recorded_size, eq.force);
   eq.force_pull = eq.M_inverse * eq.force;
+  // R^T M v, whose rate is R^T f
+  if (eq.free.any()) eq.free.driven = h * h * eq.integrated(eq.free.R.transpose() * eq.force);
   on_oscillators(system.constant_applied_force, system.applied_force, system.recorded_applied_force,
                  eq.recorded_size, eq.applied_force);
   on_oscillators(system.constant_motion, system.motion, system.recorded_motion, eq.recorded_size, eq.motion);

@@ -148,6 +148,21 @@ Eigen::MatrixXd free_of(const MatrixXd& A, const MatrixXd& M) {
   return root.matrixL().solve(X.transpose()).transpose();
 }
 
+Eigen::MatrixXd strained_along(const MatrixXd& W, const MatrixXd& R) {
+  const MatrixXd strain = W.transpose() * R, size = W.cwiseAbs().transpose() * R.cwiseAbs();
+  return (strain.array().abs() > kSameDirection * size.array()).select(strain, 0.0);
+}
+
+Eigen::MatrixXd unstrained(const MatrixXd& A) {
+  const Index r = A.cols();
+  if (A.rows() == 0 || A.isZero(0.0)) return MatrixXd::Identity(r, r);
+  Eigen::FullPivLU<MatrixXd> factor(A);
+  factor.setThreshold(kSameDirection);
+  const Index free = factor.dimensionOfKernel();
+  if (free == 0) return MatrixXd(r, 0);
+  return Eigen::HouseholderQR<MatrixXd>(factor.kernel()).householderQ() * MatrixXd::Identity(r, free);
+}
+
 Eigen::MatrixXd beside(const MatrixXd& R, const MatrixXd& B, const MatrixXd& M) {
   return B * algebra::null_space(R.transpose() * M * B);
 }
@@ -156,6 +171,16 @@ Eigen::MatrixXd find_free_directions(const Assembly& assembly, const LinearSyste
   const Index n = system.masses();
   if (are_chained(assembly.network(), system)) return MatrixXd(n, 0);
   return free_of(strained_combinations(assembly, system), system.M);
+}
+
+bool may_have_free_masses(const Network& network) {
+  const auto n = static_cast<Index>(network.masses.size());
+  Rows rows(n);
+  for (const Element& element : network.elements) {
+    if (kind_of(element).holds) rows.add(incidence(network, element).w);
+  }
+  for (const MatrixPart& part : network.matrices) rows.add(strained_by(part.stiffness), part.nodes);
+  return free_of(rows.matrix(), MatrixXd::Identity(n, n)).cols() > 0;
 }
 
 bool has_free_masses(const Assembly& assembly, const NetworkValues& values) {

@@ -39,6 +39,14 @@ Eigen::MatrixXd damped_combinations(const Assembly& assembly, const LinearSystem
 // x n.
 Eigen::MatrixXd free_of(const Eigen::MatrixXd& A, const Eigen::MatrixXd& M);
 
+// W^T R: how directions w_j, columns n x k, are strained along free directions; k x r, exactly zero where
+// they are not.
+Eigen::MatrixXd strained_along(const Eigen::MatrixXd& W, const Eigen::MatrixXd& R);
+
+// Those coordinates c of unit size and right angles, columns r x k, that rows A, k x r, do not strain: A c =
+// 0. Entries of A are zero exactly or at least kSameDirection.
+Eigen::MatrixXd unstrained(const Eigen::MatrixXd& A);
+
 // A basis of those x = B y that are orthogonal to R in the product of M, R^T M x = 0; n x (b - r). R: within
 // B.
 Eigen::MatrixXd beside(const Eigen::MatrixXd& R, const Eigen::MatrixXd& B, const Eigen::MatrixXd& M);
@@ -46,6 +54,9 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& R, const Eigen::MatrixXd& B, const
 // The free directions of all masses (LinearSystem::free_directions), n x r; without columns where springs
 // hold everything.
 Eigen::MatrixXd find_free_directions(const Assembly& assembly, const LinearSystem& system);
+
+// Whether a network has springs enough to hold all masses, if each has a stiffness: else some are free.
+bool may_have_free_masses(const Network& network);
 
 // Whether there are any at these values, which is faster to tell than all their matrices.
 bool has_free_masses(const Assembly& assembly, const NetworkValues& values);

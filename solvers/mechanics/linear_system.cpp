@@ -263,6 +263,28 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
                             network_);
   check_stiffness(system);
   set_structural_damping(*this, values.damping, system);
+  find_resisted(system);
+}
+
+// After the damping of the structure, which acts along free directions too.
+void Assembly::find_resisted(LinearSystem& system) const {
+  const Eigen::MatrixXd& R = system.free_directions;
+  system.resisted.resize(0, R.cols());
+  if (R.cols() == 0) return;
+  const Eigen::MatrixXd damped = damped_combinations(*this, system);
+  const Eigen::Index contacts = system.contacts(), internal = system.internal_forces();
+  const Eigen::Index bends = system.bends.count();
+  system.resisted.setZero(damped.rows() + contacts + internal + bends, R.cols());
+  system.resisted.topRows(damped.rows()) = strained_along(damped.transpose(), R);
+  const Eigen::MatrixXd rubbed = strained_along(system.W, R), bent = strained_along(system.bends.W, R);
+  for (Eigen::Index j = 0; j < contacts; ++j) {
+    if (system.static_limit[j] > 0.0) system.resisted.row(damped.rows() + j) = rubbed.row(j);
+  }
+  system.resisted.middleRows(damped.rows() + contacts, internal) = strained_along(system.D, R);
+  for (Eigen::Index j = 0; j < bends; ++j) {
+    if (system.bends.law[static_cast<std::size_t>(j)]->of_velocity)
+      system.resisted.row(damped.rows() + contacts + internal + j) = bent.row(j);
+  }
 }
 
 void Assembly::check_stiffness(LinearSystem& system) const {
@@ -303,6 +325,7 @@ void Assembly::set_friction(const NetworkValues& values, LinearSystem& system) c
     system.static_limit[contact] += at_rest > 0.0 ? at_rest : limit;
   }
   weigh_laws(values, system);
+  find_resisted(system);
 }
 
 // R cos(omega t + phase - pi/2) + sum_m even[m] cos(2 m (omega t + phase))

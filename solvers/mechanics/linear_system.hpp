@@ -73,6 +73,9 @@ struct LinearSystem {
   // R: a basis of the directions in which no spring holds the masses, n x r with R^T M R = 1; without columns
   // where K is positive definite (free_directions.hpp).
   Eigen::MatrixXd free_directions;
+  // What takes up velocities along R: dampers, contacts with friction, internal forces and tables of dampers,
+  // a row w^T R each; k x r.
+  Eigen::MatrixXd resisted;
   Eigen::MatrixXd mass;  // of the nodes and of matrices, without inerters, n x n [kg], of rotations [kg m2]
   Eigen::MatrixXd M, C, K;
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
@@ -120,7 +123,7 @@ struct LinearSystem {
 };
 
 // Whether masses may be held by no spring: then K is positive definite but for the free directions, in which
-// it is zero. Only a motion from initial values needs no more.
+// it is zero.
 enum class FreeMasses { refused, allowed };
 
 // Builds LinearSystems of one network. Topology is worked out once; `set_values` and `set_forcing` only fill
@@ -158,6 +161,7 @@ class Assembly {
   void add_up_matrices();
   void clean_floating_matrices();
   void check_stiffness(LinearSystem& system) const;
+  void find_resisted(LinearSystem& system) const;
   void place_orders();
   void weigh_support_force();
   void check_values(const NetworkValues& values) const;

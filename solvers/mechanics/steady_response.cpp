@@ -2,7 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <complex>
+
+#include "solvers/algebra/solve.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -18,13 +22,32 @@ Eigen::VectorXd springs_of(const LinearSystem& system) {
   return springs;
 }
 
+// Under the constant force f alone dampers let free masses drift on at R c, where nothing else resists them:
+//   R^T C R c = R^T f,   K q = f - C R c.
+void carry_along(const LinearSystem& system, Eigen::VectorXd& state) {
+  const Eigen::MatrixXd& R = system.free_directions;
+  const Eigen::Index n = system.masses();
+  const Eigen::VectorXd dampers = (system.internal_rate.array() > 0.0)
+                                      .select(springs_of(system).cwiseQuotient(system.internal_rate), 0.0);
+  const Eigen::MatrixXd C = system.C + system.D * dampers.asDiagonal() * system.D.transpose();
+  const Eigen::MatrixXd resistance = R.transpose() * C * R;
+  const Eigen::VectorXd drive = R.transpose() * system.constant_force;
+  const Eigen::VectorXd velocity =
+      R * Eigen::VectorXd(resistance.completeOrthogonalDecomposition().solve(drive));
+  state.segment(n, n) = velocity;
+  state.head(n) = algebra::inverse(held_stiffness(system)) * (system.constant_force - C * velocity);
+}
+
 }  // namespace
 
 Eigen::VectorXd steady_response(const LinearSystem& system, double phase) {
   const Eigen::Index n = system.masses(), internal = system.internal_forces();
   const Eigen::VectorXd springs = springs_of(system);
   Eigen::VectorXd state = Eigen::VectorXd::Zero(2 * n + internal);
-  state.head(n) = system.K.llt().solve(system.constant_force);
+  if (system.free_directions.cols() == 0)
+    state.head(n) = system.K.llt().solve(system.constant_force);
+  else
+    carry_along(system, state);
   for (Eigen::Index k = 0; k < system.force.cols(); ++k) {
     const int order = system.orders[static_cast<std::size_t>(k)];
     const Complex i_rate(0.0, order * system.omega);

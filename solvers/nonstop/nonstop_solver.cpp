@@ -90,6 +90,7 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
 bool NonstopSolver::set_matrices() {
   constexpr double kIllConditioned = 40.0;  // rounding grows as its square
   const mechanics::LinearSystem& system = systems_[0];
+  if (system.free_directions.cols() > 0) return false;  // its sums over modes divide by their frequencies
   modes_ = sliding_modes(system);
   if (!(modes_.condition < kIllConditioned)) return false;
   M_inverse_ = algebra::inverse(system.M);

@@ -15,11 +15,20 @@
 namespace frahm::periodic {
 
 // The part of a tangent matrix that can contract. The rest positions of contacts that stick throughout never
-// change (multiplier +1); they are projected out orthogonally in the energy norm.
+// change (multiplier +1); they are projected out orthogonally in the energy norm. So are displacements in
+// free directions, and velocities that nothing takes up: by projection, not by value, as a velocity that is
+// free makes a Jordan block of the two multipliers +1, which rounding splits.
 template <int N, int H>
 typename Sizes<N, H>::StateSquare moving_part(Flow<N, H>& flow,
                                               const typename Sizes<N, H>::StateSquare& tangent,
-                                              ContactMask stuck_throughout) {
+                                              ContactMask stuck_throughout, const Closing& closing) {
+  if (closing.is_modulo()) {
+    typename Sizes<N, H>::StateSquare projector =
+        Sizes<N, H>::StateSquare::Identity(tangent.rows(), tangent.rows());
+    closing.project(projector);
+    const typename Sizes<N, H>::StateSquare beside = moving_part(flow, tangent, stuck_throughout, Closing());
+    return projector * beside * projector;
+  }
   if (stuck_throughout == 0) return tangent;
   const Eigen::Index n = flow.equations().masses();
   typename Sizes<N, H>::StateSquare off =
@@ -34,7 +43,8 @@ template <int N, int H>
 double energy_operator_norm(const StepEquations<N, H>& eq, const typename Sizes<N, H>::StateSquare& A) {
   using S = Sizes<N, H>;
   const Eigen::Index n = eq.masses();
-  // ||A||_E = ||R A R^-1||_2 with R^T R = blockdiag(K, M, 1/k of the internal forces).
+  // ||A||_E = ||R A R^-1||_2 with R^T R = blockdiag(K, M, 1/k of the internal forces); on what is left of A
+  // where displacements are free, the springs of K_root there do not count.
   typename S::StateSquare B = A;
   B.topRows(n) = (eq.K_root * B.topRows(n)).eval();
   B.middleRows(n, n) = (eq.M_root * B.middleRows(n, n)).eval();
@@ -64,14 +74,27 @@ double static_forces(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
   return sum;
 }
 
+// The largest displacement of a node by a state of energy norm 1 [m / sqrt(J)]:
+//   max_n sqrt(2 (K^-1)_nn),   or   max_n sqrt(2 (K^+)_nn) + (T/2) sqrt(2 (R R^T)_nn)
+// with free directions R, R^T M R = 1, along which velocities of up to sqrt(2 E) have a period T to part from
+// a mean of zero, and K^+ without them.
+template <int N, int H>
+double displacement_of_energy(const StepEquations<N, H>& eq, const Closing& closing) {
+  if (!closing.is_modulo()) return std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff());
+  const Eigen::VectorXd free = closing.directions().rowwise().squaredNorm();
+  const Eigen::VectorXd held = eq.K_inverse.diagonal() - eq.step * eq.step * free;
+  const double half_period = 0.5 * eq.period * eq.step;
+  return ((2.0 * held.cwiseMax(0.0)).cwiseSqrt() + half_period * (2.0 * free).cwiseSqrt()).maxCoeff();
+}
+
 // Contraction, Floquet radius and error bound of a converged orbit:
-//   ||z - z*||_E <= (||r||_E + rounding) / (1 - L),   |x_n| <= sqrt(2 (K^-1)_nn) ||z||_E,
+//   ||z - z*||_E <= (||r||_E + rounding) / (1 - L),   |x_n| <= displacement_of_energy ||z||_E,
 // as long as the events are the same throughout that ball and all laws are monotone.
 template <int N, int H>
 void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();
   follow_tangent(flow, orbit);
-  const auto moving = moving_part(flow, orbit.passage.tangent, orbit.stuck_throughout);
+  const auto moving = moving_part(flow, orbit.passage.tangent, orbit.stuck_throughout, orbit.closing);
   orbit.contraction = energy_operator_norm<N, H>(eq, moving);
   orbit.floquet_radius = spectral_radius(moving);
   if (orbit.half_period) orbit.floquet_radius *= orbit.floquet_radius;
@@ -85,7 +108,7 @@ void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
       std::numeric_limits<double>::epsilon() * operations * (scale + static_forces(flow, orbit));
   const double ball = (orbit.residual * scale + rounding) / (1.0 - orbit.contraction);
   const bool holds = eq.monotone && orbit.contraction < 1.0 && ball < 0.1 * orbit.passage.margin * scale;
-  orbit.error_bound = holds ? ball * std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff()) : kNone;
+  orbit.error_bound = holds ? ball * displacement_of_energy(eq, orbit.closing) : kNone;
 }
 
 }  // namespace frahm::periodic

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/events/passage.hpp"
+#include "solvers/orbits/closing.hpp"
 
 namespace frahm::periodic {
 
@@ -40,6 +41,7 @@ struct Orbit {
   bool half_period = false;  // the passage covers half a period: x(t + T/2) = -x(t)
   Passage<N, H> passage;
   ContactMask stuck_throughout = 0;
+  Closing closing;              // modulo what it closes
   double residual = 0.0;        // of the periodic condition, relative, energy norm
   double error_bound = 0.0;     // of every node's displacement at every time [m]; NaN where none holds
   double contraction = 0.0;     // L, energy norm of the map's derivative

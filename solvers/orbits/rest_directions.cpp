@@ -4,7 +4,15 @@
 
 namespace frahm::periodic {
 
+void keep_balanced(const Eigen::MatrixXd& along, RestDirections& rest) {
+  if (along.isZero(0.0)) return;
+  rest.balanced = mechanics::unstrained(along);
+  rest.E = (rest.E * rest.balanced).eval();
+  rest.L = (rest.L * rest.balanced).eval();
+}
+
 Eigen::MatrixXd shift_per_kept(const RestDirections& rest) {
+  if (rest.E.cols() == 0) return rest.E;
   const Eigen::MatrixXd G = rest.L.transpose() * rest.E;
   return rest.E * weighted_pseudo_inverse(G, Eigen::VectorXd::Ones(G.rows()));
 }

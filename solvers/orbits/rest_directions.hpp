@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "solvers/flow/flow.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 
 namespace frahm::periodic {
 
@@ -12,9 +13,15 @@ namespace frahm::periodic {
 //   held by friction           E = (-K^-1 w, 0, 0)     L = (-w, 0, 0)        L^T z = -w^T q
 //   with an internal force s   E = (-K^-1 w, 0, e_s)   L = (-w, 0, e_s / k)  L^T z = s/k - w^T q
 // L^T x = 2 (E, x) in the energy norm, so 1 - E (L^T E)^+ L^T removes these directions orthogonally.
+// Along free directions R nothing balances mean forces but one another: delta = A beta, R^T W A = 0, of which
+// E and L have a column each. Where contacts rest along R is free, as every place there is (closing.hpp).
 struct RestDirections {
-  Eigen::MatrixXd E, L;  // states x contacts
+  Eigen::MatrixXd E, L;      // states x contacts, or x combinations
+  Eigen::MatrixXd balanced;  // A, contacts x combinations; 0 x 0: any forces are
 };
+
+// Leaves those shifts that balance one another. along: R^T W of the contacts.
+void keep_balanced(const Eigen::MatrixXd& along, RestDirections& rest);
 
 template <int N, int H>
 RestDirections rest_directions(const StepEquations<N, H>& eq, ContactMask contacts) {
@@ -34,6 +41,9 @@ RestDirections rest_directions(const StepEquations<N, H>& eq, ContactMask contac
     }
     ++column;
   }
+  if (eq.has_free_masses)
+    keep_balanced(mechanics::strained_along(eq.W(Eigen::all, list_of(contacts)), eq.free.R).transpose(),
+                  rest);
   return rest;
 }
 

@@ -86,12 +86,16 @@ VectorXd shared_minimum(const MatrixXd& G, const VectorXd& c, const Bounds& boun
 RestShift least_energy_shift(const RestDirections& rest, const VectorXd& z_mean,
                              std::span<const StuckForce> forces) {
   constexpr double kBroken = -1e-9;  // of the size of a force
-  Bounds bounds = bounds_of(forces, rest.E.cols());
+  Bounds bounds = bounds_of(forces, rest.balanced.rows() > 0 ? rest.balanced.rows() : rest.E.cols());
   if (!close(bounds)) return {};
+  if (rest.balanced.rows() > 0) bounds.A = (bounds.A * rest.balanced).eval();
   const MatrixXd G = rest.L.transpose() * rest.E;
   const VectorXd c = -(rest.L.transpose() * z_mean);
   RestShift shift;
-  if (bounds.A.isIdentity(0.0)) {
+  if (rest.E.cols() == 0) {
+    shift.delta.resize(0);
+    if (bounds.room(shift.delta) < kBroken) return {};
+  } else if (bounds.A.isIdentity(0.0)) {
     keep_from_slipping(bounds, forces, false);
     const BoxMinimum minimum = box_minimum(G, c, bounds.lower, bounds.upper, bounds.limit);
     if (!minimum.found) return {};

@@ -33,6 +33,7 @@ struct Trial {
   typename Sizes<N, H>::State z;
   Passage<N, H> passage;
   ContactMask stuck_throughout = 0;
+  Closing closing;
   typename Sizes<N, H>::State residual;  // g(z) - z
   double norm = 0.0;                     // its energy norm [sqrt(J)]
   double relative = 0.0;                 // to that of z, or of the static response
@@ -68,6 +69,7 @@ class Shooting {
   bool try_shorter_steps(const typename S::State& step);
   Verdict go_by_map(int& maps);
   void march(int maps);
+  typename S::State image(const Trial<N, H>& trial) const;
   bool creeps(double before, int maps) const;
   bool glide();
   typename S::StateSquare tangent_here() const;

@@ -46,7 +46,13 @@ void Shooting<N, H>::apply_map(Trial<N, H>& trial) {
   // L^T z of a contact that sticks throughout is constant: it drifts by rounding alone.
   if (sign_ > 0.0 && trial.stuck_throughout != 0)
     trial.residual -= shift_projector(rest_directions(eq, trial.stuck_throughout)) * trial.residual;
-  trial.norm = eq.energy_norm(trial.residual);
+  trial.closing = closing_of(flow_, trial.passage);
+  if (trial.closing.is_modulo()) {
+    typename S::Oscillators u(eq.oscillators());
+    eq.oscillators_at(section_, flow_.orders(), u);
+    trial.closing.apply(trial.z, u, trial.residual);
+  }
+  trial.norm = closing_norm(eq, trial.residual);
   const double scale = flow_.energy_scale(trial.z);
   trial.relative = scale > 0.0 ? trial.norm / scale : trial.norm;
 }
@@ -71,6 +77,7 @@ bool Shooting<N, H>::take_newton_step() {
 template <int N, int H>
 typename Sizes<N, H>::StateSquare Shooting<N, H>::newton_matrix(const typename S::StateSquare& tangent) {
   typename S::StateSquare B = -sign_ * tangent;
+  current_.closing.project(B);
   B.diagonal().array() += 1.0;
   if (sign_ > 0.0 && current_.stuck_throughout != 0)
     B += shift_projector(rest_directions(flow_.equations(), current_.stuck_throughout));
@@ -170,9 +177,16 @@ template <int N, int H>
 void Shooting<N, H>::march(int maps) {
   for (int i = 0; i < maps && current_.passage.failure == nullptr && current_.relative > options_.tolerance;
        ++i) {
-    current_.z = sign_ * current_.passage.end;
+    current_.z = image(current_);
     apply_map(current_);
   }
+}
+
+// Where the map takes a state, modulo what is free.
+template <int N, int H>
+typename Sizes<N, H>::State Shooting<N, H>::image(const Trial<N, H>& trial) const {
+  if (trial.closing.is_modulo()) return trial.z + trial.residual;
+  return sign_ * trial.passage.end;
 }
 
 // Whether the map would take more passages than the search may at the rate of these maps.
@@ -248,7 +262,7 @@ void Shooting<N, H>::start_at_rest() {
   constexpr double kNoLength = 1e-9;  // of the passage
   const auto& segments = current_.passage.segments;
   if (segments.size() < 2 || segments.front().length > kNoLength * length_) return;
-  candidate_.z = sign_ * current_.passage.end;
+  candidate_.z = image(current_);
   apply_map(candidate_);
   const bool serves = candidate_.passage.failure == nullptr && candidate_.relative <= options_.good_enough;
   if (serves) std::swap(current_, candidate_);
@@ -276,6 +290,7 @@ void Shooting<N, H>::conclude(Verdict verdict, Orbit<N, H>& orbit) {
   }
   orbit.z = current_.z;
   orbit.stuck_throughout = current_.stuck_throughout;
+  orbit.closing = current_.closing;
   orbit.residual = current_.relative;
   if (verdict != Verdict::converged) {
     orbit.reason = no_convergence(passages_, current_.relative);

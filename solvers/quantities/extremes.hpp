@@ -62,6 +62,11 @@ void TracedOrbit<N, H>::look(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, co
     const Form& form = forms_.back();
     trace_[i] = {step.start,          step.length,    form.at(step.left),
                  form.at(step.right), starts_segment, step.ends_segment};
+    if (orbit.frame().moves()) {
+      const double slower = orbit.frame().rate_of(form.z.head(flow.equations().masses()));
+      trace_[i].left.slope -= slower;
+      trace_[i].right.slope -= slower;
+    }
     segment_[i] = forms_.size() - 1;
     starts_segment = step.ends_segment;
   }

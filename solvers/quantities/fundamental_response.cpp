@@ -59,7 +59,9 @@ Eigen::Index reference_column(const mechanics::LinearSystem& system) {
          system.orders.begin();
 }
 
+// Free masses have none, which counts as 0.
 double static_displacement(const mechanics::LinearSystem& system, const mechanics::Incidence& at) {
+  if (system.free_directions.cols() > 0) return 0.0;
   return std::abs(
       along(at, static_solution(system, static_load(system)), system.motion.col(reference_column(system))));
 }

@@ -45,6 +45,7 @@ class Gradient {
   void place_instants(const Orbit<N, H>& orbit, std::size_t trace);
   const char* differentiate(const Orbit<N, H>& orbit, const mechanics::NetworkValues& values,
                             const mechanics::NetworkValues& direction);
+  void carry(const Orbit<N, H>& orbit);
   void integrate();
   void follow_contacts(const Orbit<N, H>& orbit);
   void differentiate_trace(std::size_t trace);
@@ -60,6 +61,7 @@ class Gradient {
   std::vector<const char*> why_none_;  // of each quantity
 
   // The current orbit.
+  Eigen::VectorXd carried_by_;
   OrbitSteps<N, H> steps_;
   OrbitSensitivity<N, H> sensitivity_;
   OrbitMeasurement<N, H> measurement_;

@@ -86,6 +86,7 @@ const char* Gradient<N, H>::differentiate(const Orbit<N, H>& orbit, const mechan
   if (const char* reason = sensitivity_.differentiate(by_); *reason != '\0') return reason;
   measured_by_.system = &system_by_;
   measured_by_.log_period = by_.log_step;
+  carry(orbit);
   if (request_.needs.integrals) integrate();
   if (request_.needs.energies || request_.needs.histories) follow_contacts(orbit);
   if (request_.needs.energies)
@@ -94,6 +95,16 @@ const char* Gradient<N, H>::differentiate(const Orbit<N, H>& orbit, const mechan
     modes_derivative(system, system_by_, measured_by_.natural_frequency, measured_by_.modal_damping);
   for (std::size_t i = 0; i < request_.traces.size(); ++i) differentiate_trace(i);
   return "";
+}
+
+// The drift, and the rate at which it carries free masses on [m/s].
+template <int N, int H>
+void Gradient<N, H>::carry(const Orbit<N, H>& orbit) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::VectorXd& rate = sensitivity_.frame_by().rate;
+  measured_by_.drift = rate * (eq.period / orbit.multiple);
+  carried_by_ = rate;
+  if (rate.size() > 0) carried_by_ = (rate - by_.log_step * steps_.frame().rate) / eq.step;
 }
 
 // d of the integral of y y^T dt: y is continuous at events, so that their shifts add nothing, and dt in
@@ -139,6 +150,7 @@ template <int N, int H>
 void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
   const Eigen::Index n = flow_.equations().masses();
   const double halves = orbit.half_period ? 2.0 : 1.0;
+  const RidingFrame& carried = sensitivity_.frame_by();
   const auto steps = steps_.steps();
   const auto& segments = orbit.passage.segments;
   measured_by_.contacts.assign(assembly_.contacts(), {});
@@ -160,6 +172,7 @@ void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
       const typename S::State d = p.transpose() * powers(steps[i].length);
       double slid = by_.support_displacement.row(j).dot(steps[i].right.u - steps[i].left.u) +
                     by_.support_velocity(j, 0) * steps[i].length;  // of a belt, whose velocity is constant
+      if (carried.moves()) slid += carried.rate_of(flow_.equations().W.col(j)) * steps[i].length;
       for (Eigen::Index q = 0; q < n; ++q) slid += flow_.equations().W(q, j) * (d[q] - p(0, q));
       its.sliding_distance += halves * mode.sign(j) * slid;
     }
@@ -213,7 +226,8 @@ CandidateDerivative Gradient<N, H>::of_candidate(std::size_t trace, std::size_t 
     result.angle = flow_.fundamental_rate() * shift;
   } else if (what.kind == TraceKind::displacement) {
     const double rate = flow_.fundamental_rate() / flow_.equations().step;  // [rad/s]
-    result.angle = -rate * (what.at.w.dot(motion_.by.v) + what.at.p.dot(motion_.by.y_velocity)) /
+    const double carried = carried_by_.size() > 0 ? what.at.w.dot(carried_by_) : 0.0;
+    result.angle = -rate * (what.at.w.dot(motion_.by.v) - carried + what.at.p.dot(motion_.by.y_velocity)) /
                    (what.at.w.dot(motion_.at.a) + what.at.p.dot(motion_.at.y_acceleration));
   }
   return result;

@@ -39,6 +39,9 @@ struct Measured {
   Eigen::MatrixXd gram;
   Eigen::MatrixXd motion, motion_velocity;  // of the prescribed nodes, rows on u [m], [m/s]
 
+  // What a period of the excitation adds to the displacements of free masses [m]; empty where none is free.
+  Eigen::VectorXd drift;
+
   std::vector<ContactHistory> histories;  // of each contact; none of a law that never sticks
   std::vector<double> friction_loss;      // of each element in a period [J]
   std::vector<double> bend_loss;          // of each bend: the work that goes into it
@@ -97,6 +100,7 @@ struct MeasuredDerivative {
   const mechanics::LinearSystem* system = nullptr;
   double log_period = 0.0;                                   // dT/T
   std::vector<std::vector<CandidateDerivative>> candidates;  // of each trace
+  Eigen::VectorXd drift;
   Eigen::MatrixXd gram, motion, motion_velocity;
   std::vector<ContactDerivative> contacts;
   std::vector<double> bend_loss, loss;

@@ -60,6 +60,7 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
   measured.coexisting = orbit.coexisting;
   measured.multiple = orbit.multiple;
   measured.unsettled = orbit.unsettled;
+  measured.drift = steps.frame().rate * (eq.period / orbit.multiple);
   measured.free_sliders = 0;
   for (const Eigen::Index j : list_of(orbit.stuck_throughout)) measured.free_sliders += eq.holds(j) ? 0 : 1;
   measured.newton_iterations = orbit.newton_iterations;

@@ -44,14 +44,19 @@ class OrbitSensitivity {
 
   // delta over the orbit's passage.
   const PassageSensitivity<N, H>& passage() const { return passage_; }
+  // Of the frame that displacements are counted from.
+  const RidingFrame& frame_by() const { return frame_by_; }
 
  private:
   void add_rest_positions(typename S::State& right_side) const;
+  RidingFrame frame_change(const typename S::State& start, const typename S::State& end) const;
   bool has_rest_positions() const { return !orbit_->half_period && orbit_->stuck_throughout != 0; }
 
   const Flow<N, H>& flow_;
   const Orbit<N, H>* orbit_ = nullptr;
   std::span<const PassageStep<N, H>> steps_;
+  const RidingFrame* frame_ = nullptr;
+  RidingFrame frame_by_;
   RestDirections rest_;             // of contacts that stick throughout
   Eigen::MatrixXd shift_per_keep_;  // E (L^T E)^+
   PassageSensitivity<N, H> passage_;
@@ -65,10 +70,12 @@ const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps
   steps.lay_out(orbit);
   for (PassageStep<N, H>& step : steps.steps()) steps.expand(step);
   steps_ = steps.steps();
+  frame_ = &steps.frame();
   if (orbit.passage.starts_at_event)
     return "events follow one another too closely for a section between them";
 
   typename S::StateSquare A = -orbit.sign() * orbit.passage.tangent;
+  orbit.closing.project(A);
   A.diagonal().array() += 1.0;
   if (has_rest_positions()) {
     // A rest position may be anywhere: the known L^T dz(0) replaces its equation.
@@ -87,6 +94,8 @@ const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by
       passage_.carry(steps_, orbit_->passage.changes, S::State::Zero(flow_.equations().states()));
   if (*passage_.why_none() != '\0') return passage_.why_none();
   typename S::State right_side = orbit_->sign() * g_p;
+  if (orbit_->closing.is_modulo())
+    orbit_->closing.apply_change(flow_.equations(), by, orbit_->z, steps_.front().left.u, right_side);
   add_rest_positions(right_side);
   const typename S::State start = periodicity_.solve(right_side);
   constexpr double kBeyondRounding = 1e12;
@@ -94,8 +103,46 @@ const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by
   if (!start.allFinite() || eq.energy_norm(start) > kBeyondRounding * eq.energy_norm(right_side)) {
     return "the period map has a multiplier of 1: the response is one of many";
   }
-  passage_.carry(steps_, orbit_->passage.changes, start);
+  const typename S::State end = passage_.carry(steps_, orbit_->passage.changes, start);
+  frame_by_ = {};
+  if (orbit_->closing.is_modulo() && *passage_.why_none() == '\0') {
+    frame_by_ = frame_change(start, end);
+    passage_.ride_along(frame_by_.offset, frame_by_.rate);
+  }
   return passage_.why_none();
+}
+
+// Of the frame that an orbit is counted from (OrbitSteps), with dM at constant R:
+//   T dc_1 = R^T M (dq(T) - dq(0)),   the mean of R^T (M dq + dM q) is zero, q counted from the frame;
+// the same at both ends together, where half a period turns its sign.
+template <int N, int H>
+RidingFrame OrbitSensitivity<N, H>::frame_change(const typename S::State& start,
+                                                 const typename S::State& end) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const StepDerivative<N, H>& by = passage_.equations();
+  const Eigen::Index n = eq.masses();
+  const Eigen::MatrixXd &R = orbit_->closing.directions(), &along = orbit_->closing.along();
+  const Eigen::MatrixXd along_by =
+      eq.step * eq.step * (R.transpose() * (by.M + 2.0 * by.log_step * eq.M));  // R^T dM in SI
+  const auto at_ends = [&](const auto& d, const Instant<N, H>& x) {
+    return Eigen::VectorXd(along * d.head(n) + along_by * x.z.head(n));
+  };
+  if (orbit_->half_period) {
+    const Eigen::VectorXd offset =
+        0.5 * (at_ends(start, steps_.front().left) + at_ends(end, steps_.back().right));
+    return {R * offset, Eigen::VectorXd::Zero(n)};
+  }
+  const Eigen::VectorXd rate = along * (end - start).head(n) / eq.period;
+  Eigen::VectorXd offset = -0.5 * eq.period * eq.period * rate;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const Polynomial share = integrals_of_powers(steps_[i].length);
+    offset += along * (passage_.polynomials(i).leftCols(n).transpose() * share) +
+              along_by * (steps_[i].expansion.z.leftCols(n).transpose() * share);
+  }
+  offset /= eq.period;
+  if (frame_->rate.isZero(0.0) || !orbit_->closing.anywhere().isIdentity(1e-9))
+    offset = orbit_->closing.anywhere() * offset;
+  return {R * offset, R * rate};
 }
 
 // A contact that sticks throughout rests where the energy is least, which makes the mean of L^T z zero:
@@ -105,7 +152,7 @@ void OrbitSensitivity<N, H>::add_rest_positions(typename S::State& right_side) c
   if (!has_rest_positions()) return;
   const StepEquations<N, H>& eq = flow_.equations();
   const StepDerivative<N, H>& by = passage_.equations();
-  Eigen::VectorXd kept(rest_.L.cols());
+  Eigen::VectorXd kept(count(orbit_->stuck_throughout));
   Eigen::Index column = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (!contains(orbit_->stuck_throughout, j)) continue;
@@ -121,6 +168,7 @@ void OrbitSensitivity<N, H>::add_rest_positions(typename S::State& right_side) c
     }
     ++column;
   }
+  if (rest_.balanced.rows() > 0) kept = (rest_.balanced.transpose() * kept).eval();
   right_side += shift_per_keep_ * kept;
 }
 

@@ -64,6 +64,14 @@ class PassageSensitivity {
   // expanded, and the changes found in them must outlive what is asked below.
   typename S::State carry(Steps steps, std::span<const Event> changes, const typename S::State& start);
 
+  // Counts the displacements of delta from offset + rate t, t in steps from the passage's beginning on.
+  void ride_along(const Eigen::VectorXd& offset, const Eigen::VectorXd& rate) {
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      polynomials_[i].row(0).head(rate.size()) -= (offset + steps_[i].start * rate).transpose();
+      polynomials_[i].row(1).head(rate.size()) -= rate.transpose();
+    }
+  }
+
   // Why there is no derivative across the changes of the last passage; "" if there is one.
   const char* why_none() const { return why_none_; }
 

@@ -9,6 +9,7 @@
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/free_directions.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
 #include "solvers/quantities/quantity_table.hpp"
@@ -173,6 +174,11 @@ bool is_of_displacement(const QuantityRow& row) {
   return row.measure == Measure::stroke || row.measure == Measure::element_phase;
 }
 
+// For a displacement, of which free masses that drift have a part that repeats.
+bool is_beside_drift(const QuantityRow& row) {
+  return row.owner == Owner::mass && row.trace == TraceKind::displacement && !row.of_free_masses;
+}
+
 }  // namespace
 
 QuantityDescription describe(const Quantity& quantity, const Network& network, bool dimensionless) {
@@ -185,13 +191,17 @@ QuantityDescription describe(const Quantity& quantity, const Network& network, b
     result.long_name.replace(braces, 2, owner_name(row.owner, quantity.index, network));
   }
   result.kind = row.kind;
+  if (is_beside_drift(row) && mechanics::may_have_free_masses(network))
+    result.long_name += ", beside its drift";
   for (const FlagMeaning& flag : row.flags) result.flags.emplace_back(flag.meaning, flag.value);
   return result;
 }
 
 std::vector<Quantity> all_quantities(const Network& network) {
   std::vector<Quantity> result;
+  const bool has_free = mechanics::may_have_free_masses(network);
   for (const QuantityRow& row : quantity_table()) {
+    if (row.of_free_masses && !has_free) continue;
     for (std::size_t i = 0; i < owner_count(row.owner, network); ++i) {
       if (is_owned_by_elements(row.owner) && !is_owner(row.owner, network.elements[i])) continue;
       if (is_of_displacement(row) && mechanics::is_on_belt(network, network.elements[i].along)) continue;
@@ -210,11 +220,12 @@ std::vector<Quantity> with_always_stored(std::vector<Quantity> listed, const Net
 
 std::vector<Quantity> standard_quantities(const Network& network) {
   std::vector<Quantity> result;
+  const bool has_free = mechanics::may_have_free_masses(network);
   for (const StandardOf of : {StandardOf::masses, StandardOf::springs, StandardOf::contacts,
                               StandardOf::point, StandardOf::coexistence, StandardOf::offsets}) {
     std::vector<const QuantityRow*> rows;
     for (const QuantityRow& row : quantity_table()) {
-      if (row.standard.of == of) rows.push_back(&row);
+      if (row.standard.of == of && (has_free || !row.of_free_masses)) rows.push_back(&row);
     }
     std::ranges::sort(rows, {}, [](const QuantityRow* row) { return row->standard.rank; });
     for (const std::size_t owner : owners(of, network)) {

@@ -21,6 +21,8 @@ enum class Measure {
   velocity_peak,
   acceleration_peak,
   harmonic,
+  drift,
+  mean_velocity,
   magnification,
   transmissibility,
   // of an element

@@ -168,6 +168,17 @@ Derivative mean(const Measured& m, D d, const Asked& asked) {
   return {(d.gram(row, one) - d.log_period * m.gram(row, one)) / m.period};
 }
 
+Derivative drift(const Measured& m, D d, const Asked& asked) {
+  const Eigen::VectorXd& w = mechanics::coordinate_incidence(m.assembly->network(), asked.quantity.index).w;
+  return {d.drift.size() > 0 ? w.dot(d.drift) : 0.0};
+}
+
+// d multiple/T:  d' = (dd - d dT/T) multiple/T
+Derivative mean_velocity(const Measured& m, D d, const Asked& asked) {
+  const double change = drift(m, d, asked).value - d.log_period * value::drift(m, asked);
+  return {change * m.multiple / m.period};
+}
+
 // sqrt(G/T):  d = (dG - G dT/T) / (2 T rms)
 Derivative rms(const Measured& m, D d, const Asked& asked) {
   const Eigen::Index row = m.row_of(asked);

@@ -12,6 +12,8 @@ Derivative amplitude(const Measured&, D, const Asked&);
 Derivative peak(const Measured&, D, const Asked&);  // of any trace
 Derivative peak_phase(const Measured&, D, const Asked&);
 Derivative mean(const Measured&, D, const Asked&);
+Derivative drift(const Measured&, D, const Asked&);
+Derivative mean_velocity(const Measured&, D, const Asked&);
 Derivative rms(const Measured&, D, const Asked&);
 Derivative phase(const Measured&, D, const Asked&);  // of a mass or element
 Derivative harmonic(const Measured&, D, const Asked&);

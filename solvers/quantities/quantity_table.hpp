@@ -63,6 +63,7 @@ struct Needs {
 struct QuantityRow {
   Measure measure;
   Owner owner;
+  bool of_free_masses = false;  // only of networks in which some mass may be held by no spring
   const char* suffix;
   const char* unit;     // UDUNITS form
   const char* meaning;  // {} stands for the owner's name

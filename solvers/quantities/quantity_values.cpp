@@ -160,6 +160,14 @@ double mean(const Measured& m, const Asked& asked) {
   return m.half_period ? 0.0 : m.gram(m.row_of(asked), m.oscillators()) / m.period;
 }
 
+double drift(const Measured& m, const Asked& asked) {
+  return m.drift.size() > 0 ? coordinate_of(m, asked).w.dot(m.drift) : 0.0;
+}
+
+double mean_velocity(const Measured& m, const Asked& asked) {
+  return drift(m, asked) * m.multiple / m.period;
+}
+
 double rms(const Measured& m, const Asked& asked) {
   const Eigen::Index row = m.row_of(asked);
   return std::sqrt(m.gram(row, row) / m.period);

@@ -15,6 +15,8 @@ double mean(const Measured&, const Asked&);
 double rms(const Measured&, const Asked&);
 double phase(const Measured&, const Asked&);  // of a mass or element
 double harmonic(const Measured&, const Asked&);
+double drift(const Measured&, const Asked&);
+double mean_velocity(const Measured&, const Asked&);
 double magnification(const Measured&, const Asked&);
 double transmissibility(const Measured&, const Asked&);
 double energy(const Measured&, const Asked&);

@@ -220,6 +220,7 @@ class DividedOrders final : public ResponseSolver {
     if (!has_reference_ && needs_reference_component(measure)) return kNone;
     if (!has_reference_ && measure == Measure::harmonic) return 0.0;
     if (measure == Measure::peak_phase) return value / divisor_;
+    if (measure == Measure::drift) return value * divisor_;  // of one period, however many a response takes
     return is_of_a_period(measure) ? value * times : value;
   }
 

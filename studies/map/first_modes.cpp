@@ -57,8 +57,8 @@ mechanics::NetworkValues values_at_first_point(const Study& study) {
 void write_modes(const Study& study, results::MapWriter& writer) {
   periodic::LinearModes modes;
   try {
-    modes =
-        periodic::linear_modes(study.network, values_at_first_point(study), false, free_masses(study.kind()));
+    modes = periodic::linear_modes(study.network, values_at_first_point(study), false,
+                                   free_masses(study.kind(), study.network));
   } catch (const mechanics::MechanicsError&) {
     return;  // the point fails for the same reason, which the record gives
   }

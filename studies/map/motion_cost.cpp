@@ -26,7 +26,7 @@ double predicted_motion_seconds(const Study& study) {
   const std::vector<double> parameters = parameters_at_first_point(study);
   try {
     const transient::ForcedOptions options = forced_options(study, parameters);
-    const mechanics::Assembly assembly(study.network, free_masses(study.kind()));
+    const mechanics::Assembly assembly(study.network, free_masses(study.kind(), study.network));
     const mechanics::NetworkValues values = values_at_first_point(study);
     mechanics::LinearSystem system;
     assembly.set_values(values, system);

@@ -54,7 +54,7 @@ bool tells_sliding(const mechanics::Element& element) {
 std::vector<std::vector<double>> sliding_motions(const mechanics::Network& network,
                                                  const mechanics::NetworkValues& values,
                                                  const periodic::History& history) {
-  const mechanics::Assembly assembly(network);
+  const mechanics::Assembly assembly(network, mechanics::FreeMasses::allowed);
   mechanics::LinearSystem system;
   assembly.set_values(values, system);
   assembly.set_forcing(values, system);

@@ -17,7 +17,7 @@ UnfitSystems try_systems(const Study& study, bool until_fit) {
   UnfitSystems found;
   if (!study.values.read_by_factors().empty()) return found;  // whose network is another at each point
   const Clock::time_point end = Clock::now() + most_time;
-  const mechanics::Assembly assembly(study.network, free_masses(study.kind()));
+  const mechanics::Assembly assembly(study.network, free_masses(study.kind(), study.network));
   // All of which a system may be refused for.
   const std::vector<std::size_t> moving =
       dimensions_moving(study, study.values.read_by_system(study.network));

@@ -67,7 +67,8 @@ mechanics::NetworkValues motion_values(const Study& study) {
   }
   try {
     values.hysteretic_omega = 1.0;  // the natural frequencies do not depend on it
-    values.hysteretic_omega = periodic::lowest_frequency(study.network, values, free_masses(study.kind()));
+    values.hysteretic_omega =
+        periodic::lowest_frequency(study.network, values, free_masses(study.kind(), study.network));
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }

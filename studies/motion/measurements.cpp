@@ -38,7 +38,8 @@ mechanics::NetworkValues values_of(const Study& study, std::span<const double> a
 
 // Where no mode oscillates the excitation does, or the user decides.
 double usual_rate(const Study& study, const mechanics::NetworkValues& values) {
-  const double lowest = periodic::lowest_frequency(study.network, values, free_masses(study.kind()));
+  const double lowest =
+      periodic::lowest_frequency(study.network, values, free_masses(study.kind(), study.network));
   const double excited =
       study.kind() == StudyKind::decay ? 0.0 : study.network.reference_order * values.omega;
   const bool oscillates = std::ranges::any_of(study.network.excitations,

@@ -71,7 +71,7 @@ void note_beyond_critical(double ratio, std::ostream& out) {
 ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& values) {
   const auto& elements = study.network.elements;
   const bool friction = std::any_of(elements.begin(), elements.end(), mechanics::has_contact);
-  const mechanics::FreeMasses free = free_masses(study.kind());
+  const mechanics::FreeMasses free = free_masses(study.kind(), study.network);
   return {periodic::linear_modes(study.network, values, false, free),
           periodic::linear_modes(study.network, values, true, free), friction, largest_ratio(study, values)};
 }

@@ -12,7 +12,7 @@
 #include "solvers/transient/forced_motion.hpp"
 #include "solvers/transient/free_decay.hpp"
 #include "tests/known_answers/exponential_integrator.hpp"
-#include "tests/known_answers/random_network.hpp"
+#include "tests/known_answers/random_free_network.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
 namespace frahm::transient::free_masses_test {
@@ -307,22 +307,6 @@ TEST_CASE("Free directions come from the springs, not from rounding") {
   }
 }
 
-// Springs to the ground and one within the chain are taken away.
-periodic::RandomNetwork without_some_springs(const periodic::RandomNetworkOptions& options, int free,
-                                             bool keeps_dampers, std::mt19937& random) {
-  periodic::RandomNetwork drawn = periodic::random_network(options, random);
-  const auto n = static_cast<std::size_t>(options.masses);
-  const auto take = [&](std::size_t spring) {
-    drawn.values.element[spring] = 0.0;
-    if (!keeps_dampers && drawn.network.elements[spring + 1].type == ElementType::damper)
-      drawn.values.element[spring + 1] = 0.0;
-  };
-  take(0);
-  if (n > 1) take(2 * n);
-  if (free == 2) take(2 * (n / 2));
-  return drawn;
-}
-
 TEST_CASE("Random networks with free masses move as the independent integration says", "[slow]") {
   constexpr double kIntegrated = 1e-10;  // relative to the largest displacement
   constexpr double kBalance = 1e-10;
@@ -330,14 +314,15 @@ TEST_CASE("Random networks with free masses move as the independent integration 
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
     const int masses = 1 + trial % 4, free = masses > 1 && trial % 3 == 0 ? 2 : 1;
-    const periodic::RandomNetwork drawn = without_some_springs({.masses = masses,
-                                                                .contacts = trial / 4 % 4,
-                                                                .maxwell_elements = trial % 5 == 3 ? 1 : 0,
-                                                                .stops = trial % 7 == 2 ? 1 : 0,
-                                                                .orders = {1},
-                                                                .shaken = false,
-                                                                .largest_friction = 0.5},
-                                                               free, trial % 2 == 0, random);
+    const periodic::RandomNetwork drawn =
+        periodic::without_some_springs({.masses = masses,
+                                        .contacts = trial / 4 % 4,
+                                        .maxwell_elements = trial % 5 == 3 ? 1 : 0,
+                                        .stops = trial % 7 == 2 ? 1 : 0,
+                                        .orders = {1},
+                                        .shaken = false,
+                                        .largest_friction = 0.5},
+                                       free, trial % 2 == 0, random);
     InitialState initial;
     Eigen::VectorXd q(masses), v(masses);
     for (int i = 0; i < masses; ++i) {
@@ -378,15 +363,16 @@ TEST_CASE("Random networks with free masses let go come to rest, or drift on, wh
   int at_rest = 0, drifting = 0;
   for (int trial = 0; trial < 120; ++trial) {
     const int masses = 1 + trial % 4, free = masses > 1 && trial % 3 == 0 ? 2 : 1;
-    periodic::RandomNetwork drawn = without_some_springs({.masses = masses,
-                                                          .contacts = trial / 4 % 3,
-                                                          .maxwell_elements = trial % 5 == 3 ? 1 : 0,
-                                                          .jenkins_elements = trial % 11 == 7 ? 1 : 0,
-                                                          .rising_dampers = trial % 13 == 5 ? 1 : 0,
-                                                          .stops = trial % 7 == 2 ? 1 : 0,
-                                                          .shaken = false,
-                                                          .largest_friction = 0.5},
-                                                         free, trial % 2 == 0, random);
+    periodic::RandomNetwork drawn =
+        periodic::without_some_springs({.masses = masses,
+                                        .contacts = trial / 4 % 3,
+                                        .maxwell_elements = trial % 5 == 3 ? 1 : 0,
+                                        .jenkins_elements = trial % 11 == 7 ? 1 : 0,
+                                        .rising_dampers = trial % 13 == 5 ? 1 : 0,
+                                        .stops = trial % 7 == 2 ? 1 : 0,
+                                        .shaken = false,
+                                        .largest_friction = 0.5},
+                                       free, trial % 2 == 0, random);
     drawn.network.excitations.clear();
     drawn.values.excitation.clear();
     InitialState initial;

@@ -120,7 +120,7 @@ std::vector<double> resonance_places(const mechanics::Network& network, const Va
   for (int i = 1; i < fineness.intervals; ++i) places.push_back(band.from + i * spacing);
   std::sort(places.begin(), places.end());
 
-  const mechanics::Assembly assembly(network);
+  const mechanics::Assembly assembly(network, mechanics::FreeMasses::allowed);
   mechanics::LinearSystem system;
   mechanics::NetworkValues last;
   Station station;  // the last one's poles hold wherever the matrices are the same

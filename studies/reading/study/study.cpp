@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 
 namespace frahm::studies {
@@ -27,9 +28,16 @@ std::string_view kind_noun(StudyKind kind) {
   return "a study";
 }
 
-mechanics::FreeMasses free_masses(StudyKind kind) {
+mechanics::FreeMasses free_masses(StudyKind kind, const mechanics::Network& network) {
+  const auto is_recorded = [](const mechanics::Excitation& each) {
+    return mechanics::is_recorded(each.kind);
+  };
+  const bool is_of_responses =
+      kind == StudyKind::sweep ||
+      (kind == StudyKind::tune && std::ranges::none_of(network.excitations, is_recorded));
   const bool is_motion = kind == StudyKind::decay || kind == StudyKind::transient;
-  return is_motion ? mechanics::FreeMasses::allowed : mechanics::FreeMasses::refused;
+  const bool may_be = is_motion || (is_of_responses && !mechanics::has_smooth_law(network));
+  return may_be ? mechanics::FreeMasses::allowed : mechanics::FreeMasses::refused;
 }
 
 const MapChoice* Study::map() const {

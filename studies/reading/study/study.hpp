@@ -72,8 +72,9 @@ enum class DataFiles { read, leave };
 std::string_view kind_name(StudyKind kind);  // as the study writes it
 std::string_view kind_noun(StudyKind kind);  // in sentences: "a tuning"
 
-// Whether masses may be held by no spring: in motions from initial values.
-mechanics::FreeMasses free_masses(StudyKind kind);
+// Whether masses may be held by no spring: in motions from initial values, and in periodic responses under
+// exact laws.
+mechanics::FreeMasses free_masses(StudyKind kind, const mechanics::Network& network);
 
 // Gives the parameters of a dimension of the map their SI values at one index (Parameters::list order).
 void set_along(const MapChoice& map, std::size_t dimension, std::size_t index, std::span<double> parameters);

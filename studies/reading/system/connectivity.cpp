@@ -15,7 +15,8 @@
 namespace frahm::studies {
 namespace {
 
-constexpr const char* motions_need_no_spring = " (a decay or a transient may have free masses)";
+constexpr const char* motions_need_no_spring =
+    " (a decay, a transient and a sweep or tuning of exact laws may have free masses)";
 
 // Sets of masses joined by springs; the last set holds what is fixed or moved from outside.
 class Union {
@@ -60,7 +61,7 @@ void add_rows_of_matrices(const mechanics::Network& network, std::vector<Eigen::
 
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
                            const std::vector<Position>& masses, StudyKind kind) {
-  if (!context.is_whole || free_masses(kind) == mechanics::FreeMasses::allowed) return;
+  if (!context.is_whole || free_masses(kind, system.network) == mechanics::FreeMasses::allowed) return;
   const auto& network = system.network;
   const std::size_t held = network.masses.size();
   const auto set_of = [&](const mechanics::Node& node) {
@@ -96,7 +97,7 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
 
 // Motions q of the masses that strain no spring, w^T q = 0, and no part given by matrices, K q = 0.
 void check_combinations_are_held(const Study& study) {
-  if (free_masses(study.kind()) == mechanics::FreeMasses::allowed) return;
+  if (free_masses(study.kind(), study.network) == mechanics::FreeMasses::allowed) return;
   const mechanics::Network& network = study.network;
   std::vector<Eigen::VectorXd> springs;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {

@@ -294,8 +294,8 @@ TEST_CASE("A start of a tuning that does not end within its sample is predicted 
 
 TEST_CASE("Points that fail in a sample are counted and the first is named") {
   MapPlan plan = plan_map(read_study_with(study_path("den_hartog"), {}), {});
-  // A stiffness of zero is no study; a map may meet one all the same, through a table or an expression.
-  plan.study.values.elements[0][0].expression = frahm::studies::Expression(0.0);
+  // A negative stiffness is no study; a map may meet one all the same, through a table or an expression.
+  plan.study.values.elements[0][0].expression = frahm::studies::Expression(-1.0);
   const auto sample = sample_map(plan, 0.0);
   CHECK(sample.failed == sample.points);
   CHECK(has(sample.failed_at, "zeta=0,f=0"));

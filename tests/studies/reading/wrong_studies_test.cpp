@@ -203,8 +203,9 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
       {"mass_floating_two",
        "14:1: the masses \"tmd\" and \"tip\" float free: no chain of springs leads to ground or to a node of "
        "prescribed motion, so the stiffness matrix is not positive definite; add a weak spring to ground, "
-       "with a frequency far below those of interest, to hold them (a decay or a transient may have free "
-       "masses)"},
+       "with a frequency far below those of interest, to hold them (a decay, a transient and a sweep or "
+       "tuning of "
+       "exact laws may have free masses)"},
       {"output_orbit_out_of_range",
        "24:11: element \"damper\": damping: is -1 N s/m at c = -1 N s/m ([output]: orbits); must be >= 0"},
       {"transient_coordinate_without_axis",

@@ -245,7 +245,9 @@ TEST_CASE("another number in a matrix file is another study, the same number in 
   CHECK(physics() != before);
 }
 
-TEST_CASE("a lever on a part that its matrices hold is accepted, and one on a part that floats is not") {
+TEST_CASE(
+    "a lever on a part that its matrices hold is accepted, and with a smooth law one on a part that floats "
+    "is not") {
   const TemporaryFolder folder;
   export_storeys(folder);
   const std::string lever =
@@ -255,7 +257,12 @@ TEST_CASE("a lever on a part that its matrices hold is accepted, and one on a pa
   const Eigen::Index n = system_of(parse_study(heading + storeys + driven, "storeys.toml")).K.rows();
   Eigen::MatrixXd floats = Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / double(n));
   write_market(folder / "K.mtx", floats);
-  CHECK_THROWS_AS(parse_study(heading + matrices + lever + driven, folder / "a.toml"), StudyError);
+  CHECK_NOTHROW(parse_study(heading + matrices + lever + driven, folder / "a.toml"));
+  const std::string rub =
+      "[[element]]\nname = \"rub\"\ntype = \"coulomb\"\nbetween = [\"u1\", \"u2\"]\nforce = 1\nlaw = "
+      "\"arctan\"\nslope = "
+      "1e3\n";
+  CHECK_THROWS_AS(parse_study(heading + matrices + lever + rub + driven, folder / "a.toml"), StudyError);
 }
 
 TEST_CASE("the imported mast has the natural frequencies of a cantilever and its compliance") {
