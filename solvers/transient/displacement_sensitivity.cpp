@@ -111,7 +111,7 @@ DisplacementSensitivity displacement_sensitivity(const Network& network, const N
                                                  const Watch& watch) {
   const mechanics::Incidence at = mechanics::coordinate_incidence(network, coordinate);
   check(network, along);
-  const RecordCourse course(network, records);
+  const RecordCourse course(network, records, times.back());
   const std::vector<periodic::Observed> observed = observed_of(at);
   std::vector<double> sampled{0.0};  // where the motion begins
   sampled.insert(sampled.end(), times.begin(), times.end());

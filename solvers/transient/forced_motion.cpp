@@ -117,7 +117,7 @@ std::optional<RecordCourse> course_of(const mechanics::Network& network, const F
     throw mechanics::MechanicsError("record '" + each.record->name +
                                     "': ends while its support moves, so the later motion is not known");
   }
-  return RecordCourse(network, options.records);
+  return RecordCourse(network, options.records, options.duration);
 }
 
 // The peaks of all coordinates: of a record, and of a run-up, which is refined until they stand.

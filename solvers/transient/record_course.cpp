@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <list>
 #include <sstream>
 
 #include "solvers/mechanics/linear_system.hpp"
@@ -65,7 +66,7 @@ std::vector<Numbers> course_of(const Record& record) {
   const std::vector<double> slopes = record.is_spline() ? spline_slopes(t, y) : std::vector<double>();
   double displacement = 0.0, velocity = 0.0;  // of a support
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-    const double h = t[i + 1] - t[i], slope = (y[i + 1] - y[i]) / h;
+    const double h = t[i + 1] - t[i], slope = h > 0.0 ? (y[i + 1] - y[i]) / h : 0.0;
     switch (record.of) {
       case RecordOf::force:
         course.push_back({y[i], slope, 0.0, 0.0});
@@ -101,6 +102,26 @@ std::vector<Numbers> course_of(const Record& record) {
   return course;
 }
 
+// Steps of corners apart.
+bool ascends(const Record& record) {
+  const bool may_step = record.is_corners && record.of != RecordOf::displacement;
+  for (std::size_t i = 1; i < record.time.size(); ++i) {
+    const bool steps = may_step && record.steps_at(i) && !record.steps_at(i - 1);
+    if (!(record.time[i] > record.time[i - 1]) && !steps) return false;
+  }
+  return true;
+}
+
+// Corners whose last value holds until then.
+Record held(const Record& corners, double until) {
+  Record longer = corners;
+  if (until > longer.time.back()) {
+    longer.time.push_back(until);
+    longer.values.push_back(longer.values.back());
+  }
+  return longer;
+}
+
 void check(const Record& record) {
   const std::size_t least = least_samples(record);
   const std::string name = "record '" + record.name + "': ";
@@ -110,8 +131,7 @@ void check(const Record& record) {
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::ranges::all_of(record.time, finite) || !std::ranges::all_of(record.values, finite))
     throw MechanicsError(name + "must be finite");
-  if (std::ranges::adjacent_find(record.time, std::greater_equal<>()) != record.time.end())
-    throw MechanicsError(name + "its times must ascend");
+  if (!ascends(record)) throw MechanicsError(name + "its times must ascend");
   if (const std::string why = why_no_spline(record); !why.empty()) throw MechanicsError(name + why);
 }
 
@@ -126,7 +146,7 @@ const Record& record_of(const mechanics::Network& network, std::size_t excitatio
     throw MechanicsError("record '" + found->record->name + "': " +
                          (is_force ? "a force acts on a mass, but a motion belongs to a support"
                                    : "a support moves, a force acts on a mass"));
-  if (found->record->jumps()) {
+  if (found->record->jumps() || (found->record->of == RecordOf::velocity && found->record->steps())) {
     const std::string why = why_no_jump(network, network.excitations[excitation].node);
     if (!why.empty()) throw MechanicsError("record '" + found->record->name + "': " + why);
   }
@@ -135,14 +155,19 @@ const Record& record_of(const mechanics::Network& network, std::size_t excitatio
 
 }  // namespace
 
-RecordCourse::RecordCourse(const mechanics::Network& network, std::span<const RecordedExcitation> records) {
+RecordCourse::RecordCourse(const mechanics::Network& network, std::span<const RecordedExcitation> records,
+                           double until) {
   std::vector<const Record*> each;
+  std::list<Record> lengthened;
   for (std::size_t k = 0; k < network.excitations.size(); ++k) {
-    if (mechanics::is_recorded(network.excitations[k].kind)) each.push_back(&record_of(network, k, records));
+    if (!mechanics::is_recorded(network.excitations[k].kind)) continue;
+    const Record& record = record_of(network, k, records);
+    each.push_back(record.is_corners ? &lengthened.emplace_back(held(record, until)) : &record);
   }
   for (const Record* record : each) {
-    std::vector<double> all;
-    std::ranges::set_union(times_, record->time, std::back_inserter(all));
+    std::vector<double> once, all;
+    std::ranges::unique_copy(record->time, std::back_inserter(once));
+    std::ranges::set_union(times_, once, std::back_inserter(all));
     times_ = std::move(all);
   }
   const auto count = static_cast<Eigen::Index>(each.size()) * mechanics::kRecordNumbers;
@@ -170,16 +195,20 @@ void RecordCourse::tell(mechanics::LinearSystem& system) const {
   system.recorded_interval = interval_;
 }
 
-// Where a straight line has another slope than the one before it, and where a motion begins with a velocity.
+// Where a straight line has another slope than the one before it, where a motion begins with a velocity, and
+// where corners step: of a force or an acceleration too, which change at once what holds a contact at rest.
 void RecordCourse::find_jumps(const Record& record, std::span<const Numbers> course) {
+  const auto jumps_at_time = [&](double time) {
+    jumps_[static_cast<std::size_t>(std::ranges::lower_bound(times_, time) - times_.begin())] = 1;
+  };
+  for (std::size_t i = 1; i < record.time.size(); ++i) {
+    if (record.steps_at(i)) jumps_at_time(record.time[i]);
+  }
   if (record.of == RecordOf::force) return;
   double before = 0.0;  // [m/s]
   for (std::size_t i = 0; i < course.size(); ++i) {
     const double velocity = course[i][1];
-    if ((i == 0 || record.jumps()) && velocity != before) {
-      const auto at = std::ranges::lower_bound(times_, record.time[i]);
-      jumps_[static_cast<std::size_t>(at - times_.begin())] = 1;
-    }
+    if ((i == 0 || record.jumps()) && velocity != before) jumps_at_time(record.time[i]);
     before = velocity;
   }
 }
@@ -208,6 +237,7 @@ void RecordCourse::bound_numbers() {
 }
 
 bool is_known_behind(const Record& record) {
+  if (record.is_corners) return true;
   if (record.of == RecordOf::velocity) return record.values.back() == 0.0;
   if (record.of != RecordOf::displacement) return true;
   const std::size_t last = record.time.size() - 1;
@@ -278,20 +308,25 @@ std::string why_no_spline(const Record& record) {
   return text.str();
 }
 
-std::string why_no_jump(const mechanics::Network& network, std::size_t support) {
+std::string inerter_on(const mechanics::Network& network, std::size_t support) {
   const mechanics::Node node{mechanics::NodeKind::prescribed, support};
   for (const mechanics::Element& element : network.elements) {
     if (element.type != mechanics::ElementType::inerter) continue;
     const bool hangs =
         std::ranges::any_of(element.along, [&](const mechanics::Share& share) { return share.node == node; });
-    if (!hangs) continue;
-    return "straight lines make the velocity of \"" + network.prescribed[support] +
-           "\" jump at the samples, and the inerter \"" + element.name +
-           "\" there would need an infinite force; leave out interpolation = \"linear\", or record a "
-           "velocity "
-           "or an acceleration";
+    if (hangs) return element.name;
   }
   return "";
+}
+
+std::string why_no_jump(const mechanics::Network& network, std::size_t support) {
+  const std::string inerter = inerter_on(network, support);
+  if (inerter.empty()) return "";
+  return "straight lines make the velocity of \"" + network.prescribed[support] +
+         "\" jump at the samples, and the inerter \"" + inerter +
+         "\" there would need an infinite force; leave out interpolation = \"linear\", or record a "
+         "velocity "
+         "or an acceleration";
 }
 
 }  // namespace frahm::transient

@@ -12,6 +12,7 @@
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/one_motion.hpp"
 #include "studies/provenance/group_columns.hpp"
+#include "studies/reading/study/series_text.hpp"
 #include "studies/reading/study/study_units.hpp"
 #include "studies/tuning/optimum_columns.hpp"
 
@@ -105,8 +106,13 @@ std::string excitation_with(const Study& study, std::span<const Assignment> set)
   const auto start = amplitudes_at(band ? band->range.from : 0.0),
              end = amplitudes_at(band ? band->range.to : 0.0);
   std::vector<std::string> components;
-  for (std::size_t k = 0; k < start.size(); ++k)
+  for (std::size_t k = 0; k < start.size(); ++k) {
     components.push_back(component_text(study, k, start[k].amplitude, end[k].amplitude));
+    const auto begun = std::ranges::find(study.values.series, k, &PeriodSeries::first);
+    if (begun == study.values.series.end() || begun->count < 2) continue;
+    components.back() += fmt::format(" and {} higher orders of its period", begun->count - 1);
+    k += begun->count - 1;
+  }
   return fmt::format("{}", fmt::join(components, "; "));
 }
 
@@ -133,6 +139,8 @@ results::GroupContent study_facts(const Study& study) {
     facts.columns = limit_bands(study);
     facts.texts = excitation_of_optimum(study);
   }
+  if (!study.values.series.empty())
+    facts.texts.emplace_back("series", fmt::format("{}", fmt::join(series_texts(study.values), "\n")));
   return facts;
 }
 

@@ -34,6 +34,7 @@
 #include "studies/program/record_table.hpp"
 #include "studies/program/scatter_table.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/study/series_text.hpp"
 #include "studies/reading/study/study.hpp"
 #include "studies/reading/study/study_units.hpp"
 
@@ -48,6 +49,10 @@ void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
     fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.map()->dimensions[d].name);
   }
   fmt::print(out, "\ntiles   {} of {} points\n", grid.tiles(), grid.box(0).points());
+}
+
+void print_series(const Study& study, std::ostream& out) {
+  for (const std::string& text : series_texts(study.values)) fmt::print(out, "series  {}\n", text);
 }
 
 std::string about_seconds(double seconds) {
@@ -181,6 +186,7 @@ int check_motion(const Study& study, Listing listing, std::ostream& out) {
     print_decay_choice(study, values, out);
   } else {
     print_transient_choice(study, out);
+    print_series(study, out);
   }
   for (std::size_t i = 0; i < initial.displacement.size(); ++i) {
     const bool turns = mechanics::rotates(study.network, i);
@@ -282,6 +288,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
                study.title);
   }
   print_grid(study, plan.grid, out);
+  print_series(study, out);
   print_samples(study, out);
   print_prediction(plan, sample, memory, options.threads, out);
   print_unfit_systems(study, sample, out);

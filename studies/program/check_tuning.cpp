@@ -12,6 +12,7 @@
 #include "studies/program/memory_use.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/readable_size.hpp"
+#include "studies/reading/study/series_text.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_sample.hpp"
 #include "studies/tuning/tuning_table.hpp"
@@ -83,6 +84,7 @@ int check_tuning(const CheckOptions& options, Study read, std::ostream& out) {
   const TuningSample sample = sample_tuning(plan, sample_seconds);
   print_heading(study, sample, out);
   print_task(study, out);
+  for (const std::string& text : series_texts(study.values)) fmt::print(out, "{:<22}{}\n", "series", text);
   std::size_t variables = 0;
   for (const DesignChoice& design : study.tune()->designs) {
     print_design_range(study, design, out);

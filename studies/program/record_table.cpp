@@ -80,6 +80,13 @@ void print_baseline(const Study& study, RecordOf of, const RecordFacts& facts, s
                with_unit(study, facts.peak_displacement, Quantity::length));
 }
 
+void print_corners(const Study& study, const DrivingRecord& driving, std::ostream& out) {
+  const transient::Record& record = driving.records.front();
+  fmt::print(out, "corners    {}: {} to {}, straight lines between them; then the last value holds\n",
+             driven_by(study, driving, record.of).what, record.time.size(),
+             with_unit(study, record.time.back(), Quantity::time));
+}
+
 void print_one(const Study& study, const DrivingRecord& driving, std::ostream& out) {
   const transient::Record& record = driving.records.front();
   const auto [what, quantity] = driven_by(study, driving, record.of);
@@ -175,13 +182,16 @@ void warn_of_sampling(const Study& study, const DrivingRecord& driving, const pe
 void print_records(const Study& study, const periodic::LinearModes& modes, std::ostream& out) {
   const auto& all = study.transient()->records;
   for (const DrivingRecord& driving : all) {
-    if (driving.on_axis) {
+    if (driving.is_corners()) {
+      print_corners(study, driving, out);
+    } else if (driving.on_axis) {
       print_axis(study, driving, out);
     } else {
       print_one(study, driving, out);
     }
   }
   for (const DrivingRecord& driving : all) {
+    if (driving.is_corners()) continue;
     warn_of_drift(study, driving, out);
     // A displacement by straight lines is a wish, of corners that are meant.
     if (driving.records.front().jumps()) continue;

@@ -96,6 +96,8 @@ Json form_of(const StudyKey& key, KeyForm form) {
       return list_of(list_of(value_reference(false, key.limits), {2, 2}), key.length);
     case KeyForm::plain_value:
       return value_reference(true, key.limits);
+    case KeyForm::plain_pairs:
+      return list_of(list_of(value_reference(true, key.limits), {2, 2}), key.length);
     case KeyForm::column:
       return {{"anyOf", {form_of(key, KeyForm::integer), form_of(key, KeyForm::text)}}};
     case KeyForm::parameter:

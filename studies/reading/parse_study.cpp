@@ -201,17 +201,20 @@ Study read_document(const StudySource& source, const TomlValue& root, const std:
   std::vector<WrittenExpression> written;
   const StudyContext context{study.source, units, study.dimensionless, written, is_whole};
   study.parameters = read_parameters(context, root, folder);
+  std::vector<DrivingRecord> driving;
   if (study.kind() != StudyKind::identify || has_system(root)) {
-    auto [network, values] = read_network(context, root, folder, study.parameters, study.kind());
+    auto [network, values, corners] = read_network(context, root, folder, study.parameters, study.kind());
     study.network = std::move(network);
     study.values = std::move(values);
     refuse_mixed_laws(study);
+    driving = std::move(corners);
   }
   if (study.sweep()) read_comparison(context, root, study);
   if (study.motion() || study.identify()) read_motion(context, root, study);
   if (study.transient())
-    study.transient()->records = read_driving_records(context, root, folder, data, study.network,
-                                                      read_record_axis(context, root), "an [[axis]]");
+    study.transient()->records =
+        read_driving_records(context, root, folder, data, study.network, std::move(driving),
+                             read_record_axis(context, root), "an [[axis]]");
   if (study.kind() == StudyKind::identify) read_identification(context, root, study);
   convert_parameters(context, study.parameters);
   if (study.kind() == StudyKind::sweep) {
@@ -226,7 +229,7 @@ Study read_document(const StudySource& source, const TomlValue& root, const std:
     read_map_of_motions(context, root, folder, data, study);
   } else if (study.kind() == StudyKind::tune) {
     if (mechanics::has_records(study.network))
-      read_tuning_over_records(context, root, folder, data, study);
+      read_tuning_over_records(context, root, folder, data, std::move(driving), study);
     else
       read_tuning(context, root, study);
   } else if (study.kind() == StudyKind::identify) {

@@ -127,6 +127,113 @@ TEST_CASE("A motion does not outlast a record that ends while its support moves"
   CHECK_THROWS_WITH(run(1.01), Catch::Contains("record 'v'") && Catch::Contains("motion is not known"));
 }
 
+// A list of corners.
+Record corners(RecordOf of, std::vector<double> time, std::vector<double> values) {
+  Record record{.name = "corners", .of = of, .time = std::move(time), .values = std::move(values)};
+  record.interpolation = Interpolation::linear;
+  record.is_corners = true;
+  return record;
+}
+
+TEST_CASE("Corners are the record of the same samples, until it ends") {
+  const std::vector<double> t{0.0, 0.7, 1.1, 2.0}, y{0.0, 0.3, -0.2, 0.5};
+  for (const RecordOf of : {RecordOf::displacement, RecordOf::velocity, RecordOf::acceleration}) {
+    const Record list = corners(of, t, y);
+    Record record = list;
+    record.is_corners = false;
+    const Network network = one_mass(ExcitationKind::recorded_motion);
+    const ForcedMotion a = motion_of(network, kUnit, {{0, &list}}, 2.0, 21);
+    const ForcedMotion b = motion_of(network, kUnit, {{0, &record}}, 2.0, 21);
+    CHECK(a.history.displacement == b.history.displacement);
+    CHECK(a.history.velocity == b.history.velocity);
+  }
+}
+
+TEST_CASE("A force steps at two corners of one time, and its last value holds") {
+  // x'' + x = 1 until 2, then -1/2:  x = 1 - cos t, then -1/2 + A cos s + B sin s, s = t - 2.
+  const Record steps = corners(RecordOf::force, {0.0, 2.0, 2.0, 3.0}, {1.0, 1.0, -0.5, -0.5});
+  const ForcedMotion motion =
+      motion_of(one_mass(ExcitationKind::recorded_force), kUnit, {{0, &steps}}, 12.0, 121);
+  REQUIRE(motion.failure.empty());
+  for (std::size_t i = 0; i < motion.history.time.size(); ++i) {
+    const double t = motion.history.time[i], s = t - 2.0;
+    const double expected = s <= 0.0
+                                ? 1.0 - std::cos(t)
+                                : -0.5 + (1.5 - std::cos(2.0)) * std::cos(s) + std::sin(2.0) * std::sin(s);
+    INFO("t = " << t);
+    CHECK(std::abs(motion.history.displacement[0][i] - expected) < kExact);
+  }
+  CHECK(motion.energy.balance < kExact);
+}
+
+TEST_CASE("A velocity goes on with its last value, and an acceleration and a displacement with theirs") {
+  Network network = one_mass(ExcitationKind::recorded_motion);
+  network.signals.push_back({"base", {{{NodeKind::prescribed, 0}, 1.0}}});
+  const auto at_three = [&](const Record& record) {
+    const ForcedMotion motion = motion_of(network, kUnit, {{0, &record}}, 3.0, 4);
+    REQUIRE(motion.failure.empty());
+    CHECK(motion.energy.balance < kExact);
+    return std::pair{motion.history.displacement[1][3], motion.history.displacement[0][3]};
+  };
+  // y = t^2/2 until 1, then y = 1/2 + s, s = t - 1:  x = y - 1 + cos t, then y + A cos s + B sin s with
+  // A = cos 1 - 1, B = -sin 1.
+  const auto [base, mass] = at_three(corners(RecordOf::velocity, {0.0, 1.0}, {0.0, 1.0}));
+  CHECK(std::abs(base - 2.5) < kExact);
+  CHECK(std::abs(mass - (2.5 + (std::cos(1.0) - 1.0) * std::cos(2.0) - std::sin(1.0) * std::sin(2.0))) <
+        kExact);
+  CHECK(std::abs(at_three(corners(RecordOf::acceleration, {0.0, 1.0}, {2.0, 2.0})).first - 9.0) < kExact);
+  CHECK(std::abs(at_three(corners(RecordOf::displacement, {0.0, 1.0}, {0.0, 4.0})).first - 4.0) < kExact);
+}
+
+// A block of 1 kg, held by friction of 2 N alone, to the ground or to a support.
+Network block(ExcitationKind kind) {
+  Network network = one_mass(kind);
+  network.elements[0].type = ElementType::coulomb;
+  network.elements[0].name = "friction";
+  if (kind == ExcitationKind::recorded_motion)
+    network.signals.push_back({"slip", {{{NodeKind::mass, 0}, 1.0}, {{NodeKind::prescribed, 0}, -1.0}}});
+  return network;
+}
+const NetworkValues kBlock{.omega = 1.0, .mass = {1.0}, .element = {2.0}, .excitation = {{1.0, 0.0}}};
+
+TEST_CASE("A belt that starts at once slips under its block, until the block has its speed") {
+  // v = 2 s from t = 1 on, 3 m/s after 1.5 s and 2.25 m; then it rides.
+  const Record start = corners(RecordOf::velocity, {0.0, 1.0, 1.0, 2.0}, {0.0, 0.0, 3.0, 3.0});
+  const ForcedMotion motion =
+      motion_of(block(ExcitationKind::recorded_motion), kBlock, {{0, &start}}, 4.0, 5);
+  REQUIRE(motion.failure.empty());
+  CHECK(std::abs(motion.history.displacement[0][2] - 1.0) < kExact);
+  CHECK(std::abs(motion.history.displacement[0][4] - (2.25 + 3.0 * 1.5)) < 10.0 * kExact);
+  CHECK(std::abs(motion.history.displacement[1][4] - (2.25 - 4.5)) < 10.0 * kExact);
+  REQUIRE(motion.stops[0].size() == 2);
+  CHECK(std::abs(motion.stops[0][0].release - 1.0) < kExact);
+  CHECK(std::abs(motion.stops[0][1].onset - 2.5) < kExact);
+  CHECK(motion.energy.balance < kExact);
+}
+
+TEST_CASE("A block lets go where its force steps above the friction, and stops after it steps down") {
+  // 3 N - 2 N from t = 1 to 2: 0.5 m and 1 m/s; then -2 N for 0.5 s and 0.25 m.
+  const Record pushes =
+      corners(RecordOf::force, {0.0, 1.0, 1.0, 2.0, 2.0, 3.0}, {1.0, 1.0, 3.0, 3.0, 0.0, 0.0});
+  const ForcedMotion motion =
+      motion_of(block(ExcitationKind::recorded_force), kBlock, {{0, &pushes}}, 5.0, 6);
+  REQUIRE(motion.failure.empty());
+  CHECK(std::abs(motion.history.displacement[0][1]) < kExact);
+  CHECK(std::abs(motion.history.displacement[0][2] - 0.5) < kExact);
+  CHECK(std::abs(motion.history.displacement[0][5] - 0.75) < kExact);
+  CHECK(motion.energy.balance < kExact);
+}
+
+TEST_CASE("Newmark's block slips V^2/(2 mu g) (1 - mu g/a) under a pulse of acceleration") {
+  // mu g = 2 m/s2, a = 5 m/s2 for 0.4 s: V = 2 m/s.
+  const Record pulse = corners(RecordOf::acceleration, {0.0, 0.4, 0.4, 1.0}, {5.0, 5.0, 0.0, 0.0});
+  const ForcedMotion motion =
+      motion_of(block(ExcitationKind::recorded_motion), kBlock, {{0, &pulse}}, 3.0, 4);
+  REQUIRE(motion.failure.empty());
+  CHECK(std::abs(motion.history.displacement[1][3] + 0.6) < kExact);
+  CHECK(motion.energy.balance < kExact);
+}
+
 TEST_CASE("Records that are none are refused by name") {
   const Network network = one_mass(ExcitationKind::recorded_force);
   const auto refused = [&](const Record& record, const std::string& word) {
@@ -134,6 +241,7 @@ TEST_CASE("Records that are none are refused by name") {
   };
   refused({.name = "short", .of = RecordOf::force, .time = {0.0}, .values = {0.0}}, "record 'short'");
   refused({.name = "back", .of = RecordOf::force, .time = {0.0, 0.0}, .values = {0, 0}}, "must ascend");
+  refused(corners(RecordOf::force, {0.0, 1.0, 1.0, 1.0}, {0, 0, 1, 2}), "must ascend");
   refused({.name = "nan", .of = RecordOf::force, .time = {0.0, 1.0}, .values = {0, NAN}}, "finite");
   refused({.name = "y", .of = RecordOf::velocity, .time = {0.0, 1.0}, .values = {0, 1}},
           "a motion belongs to a support");

@@ -48,6 +48,9 @@ constexpr auto formulas = [] {
 
 constexpr double most_contacts = periodic::kMostContacts;
 constexpr double highest_order = 1000;  // events are searched on samples of the highest one over a period
+constexpr double most_orders = 200;     // of an excitation, as in excitation_reading.cpp
+constexpr double orders_of_corners =
+    40;  // of corners with a period: 2e-5 of a triangle's amplitude are left out
 constexpr double most_axis_points = 1'000'000;
 constexpr double most_records = 1'000'000;
 constexpr double most_samples = 10'000'000;      // of a history: some hundred megabytes
@@ -180,9 +183,20 @@ constexpr StudyKey all_keys[] = {
     {"excitation.force", "on", KeyForm::name, Use::physics, "the mass it acts on"},
     {"excitation.force", "node", KeyForm::name, Use::physics, "the same as `on`"},
     {"excitation.force", "amplitude", KeyForm::value, Use::physics,
-     "[N], for a rotation [N m]: amplitude cos(order omega t + phase)", needed},
+     "[N], for a rotation [N m]: amplitude cos(order omega t + phase)", of("profile", "harmonic")},
+    {"excitation.force", "force", KeyForm::plain_pairs, Use::physics,
+     "corners [[t, force], ...], [s] and [N], straight lines between them: in a transient a course whose "
+     "last "
+     "value holds, in other studies one period",
+     of("profile", "harmonic"), Length{2}},
+    {"excitation.force", "scale", KeyForm::value, Use::physics, "multiplies the values of corners, default 1",
+     of("profile", "harmonic")},
+    {"excitation.force", "orders", KeyForm::integer, Use::physics,
+     "the highest order of the Fourier series of corners that are a period", of("profile", "harmonic"),
+     from(1, most_orders), Default{orders_of_corners}},
     {"excitation.force", "order", KeyForm::integer, Use::physics,
-     "multiple of the frequency; 0 is a constant", from(0, highest_order), Default{1}},
+     "multiple of the frequency; 0 is a constant", of("profile", "harmonic"), from(0, highest_order),
+     Default{1}},
     {"excitation.force", "phase", KeyForm::value, Use::physics, "[rad], default 0"},
     {"excitation.force", "profile", KeyForm::choice, Use::physics, "shape of its course", words::harmonic,
      Default{0}},
@@ -192,10 +206,21 @@ constexpr StudyKey all_keys[] = {
      Default{0}},
     {"excitation.motion", "amplitude", KeyForm::value, Use::physics, "amplitude of its displacement [m]",
      of("profile", "harmonic")},
+    {"excitation.motion", "displacement", KeyForm::plain_pairs, Use::physics,
+     "corners [[t, displacement], ...], [s] and [m], straight lines between them: in a transient a course "
+     "whose last value holds, in other studies one period",
+     of("profile", "harmonic"), Length{2}},
     {"excitation.motion", "velocity", KeyForm::value, Use::physics,
-     "amplitude of its velocity [m/s]; with order 0, a belt", of("profile", "harmonic")},
+     "amplitude of its velocity [m/s]; with order 0, a belt; or its corners [[t, velocity], ...]",
+     of("profile", "harmonic"), Or{KeyForm::plain_pairs}, Length{2}},
     {"excitation.motion", "acceleration", KeyForm::value, Use::physics,
-     "amplitude of its acceleration [m/s2]", of("profile", "harmonic")},
+     "amplitude of its acceleration [m/s2]; or its corners [[t, acceleration], ...]",
+     of("profile", "harmonic"), Or{KeyForm::plain_pairs}, Length{2}},
+    {"excitation.motion", "scale", KeyForm::value, Use::physics,
+     "multiplies the values of corners, default 1", of("profile", "harmonic")},
+    {"excitation.motion", "orders", KeyForm::integer, Use::physics,
+     "the highest order of the Fourier series of corners that are a period", of("profile", "harmonic"),
+     from(1, most_orders), Default{orders_of_corners}},
     {"excitation.motion", "order", KeyForm::integer, Use::physics, "multiple of the frequency",
      of("profile", "harmonic"), from(0, highest_order), Default{1}},
     {"excitation.motion", "phase", KeyForm::value, Use::physics, "[rad], default 0"},

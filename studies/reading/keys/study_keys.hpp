@@ -15,6 +15,7 @@ enum class KeyForm {
   values,       // a list of those
   pairs,        // a list of pairs of those
   plain_value,  // a number or { value, unit }
+  plain_pairs,  // a list of pairs of those
   column,       // of data: its number or its heading
   parameter,    // a value, or { table, of }
   number,       // a plain one

@@ -65,7 +65,7 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   if (mechanics::has_records(reading.result.network))
     section.fail(rules::beyond_schema(rules::key_without_use), "sweep_to",
                  "a run-up consists of steps of constant frequency, but a record ([[excitation.record]]) "
-                 "runs in its own time; leave out one of them");
+                 "or a list of corners runs in its own time; leave out one of them");
   if (transient::asks_where_belts_are(reading.result.network))
     section.fail(
         rules::beyond_schema(rules::key_without_use), "sweep_to",
@@ -83,7 +83,7 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
                  "or one parameter, which then runs");
   }
   if (!is_parameter) return;
-  const auto& [network, values] = reading.result;
+  const auto& [network, values, driving] = reading.result;
   for (std::size_t i = 0; i < network.excitations.size(); ++i) {
     if (network.excitations[i].kind == mechanics::ExcitationKind::force) continue;
     for (const StudyValue* value : {&values.amplitude[i], &values.phase[i], &values.rod[i]}) {

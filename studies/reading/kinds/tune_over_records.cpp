@@ -65,11 +65,12 @@ double read_duration(const TomlSection& section, const PeakChoice& peaks) {
 }
 
 void read_records_of(const StudyContext& context, const TomlValue& root, const std::filesystem::path& folder,
-                     DataFiles data, const TomlSection& section, const Study& study, PeakChoice& peaks) {
+                     DataFiles data, const TomlSection& section, const Study& study,
+                     std::vector<DrivingRecord> corners, PeakChoice& peaks) {
   std::optional<WrittenRecordAxis> axis;
   if (section.find("records")) axis = read_records(context, section);
-  peaks.driving =
-      read_driving_records(context, root, folder, data, study.network, axis, "\"records\" of [tune]");
+  peaks.driving = read_driving_records(context, root, folder, data, study.network, std::move(corners), axis,
+                                       "\"records\" of [tune]");
   if (axis) peaks.records = axis->names();
   for (const TomlSection& each : record_sections(context.source, find_entry(root, "excitation")->value)) {
     if (peaks.records.empty()) peaks.records.push_back(each.text("file"));
@@ -100,7 +101,8 @@ void refuse_tables(const StudyContext& context, const TomlValue& root) {
 }  // namespace
 
 void read_tuning_over_records(const StudyContext& context, const TomlValue& root,
-                              const std::filesystem::path& folder, DataFiles data, Study& study) {
+                              const std::filesystem::path& folder, DataFiles data,
+                              std::vector<DrivingRecord> corners, Study& study) {
   refuse_smooth_laws(study, kind_noun(study.kind()));
   refuse_tables(context, root);
   const TomlSection section(context.source, find_entry(root, "tune")->value, "[tune]", "tune", "records");
@@ -112,7 +114,7 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   check_excitation(reading, section);
   peaks.quantity = read_peak(reading, section);
   choice.quantity_name = section.text("quantity");
-  read_records_of(context, root, folder, data, section, study, peaks);
+  read_records_of(context, root, folder, data, section, study, std::move(corners), peaks);
   peaks.duration = read_duration(section, peaks);
   choice.solver = tuning::solver_named(section.choice("solver", "slsqp"));
   read_start(section, choice);

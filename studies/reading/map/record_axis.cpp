@@ -102,11 +102,16 @@ std::vector<Record> records_of_axis(const StudyContext& context, const TomlSecti
   return records;
 }
 
-// The indices of the recorded components in Network::excitations, in the order of their tables.
-std::vector<std::size_t> recorded_components(const mechanics::Network& network) {
+// The indices of the recorded components in Network::excitations, in the order of their tables; corners stand
+// before them.
+std::vector<std::size_t> recorded_components(const mechanics::Network& network, std::size_t corners) {
   std::vector<std::size_t> components;
   for (std::size_t i = 0; i < network.excitations.size(); ++i) {
-    if (mechanics::is_recorded(network.excitations[i].kind)) components.push_back(i);
+    if (!mechanics::is_recorded(network.excitations[i].kind)) continue;
+    if (corners > 0)
+      --corners;
+    else
+      components.push_back(i);
   }
   return components;
 }
@@ -169,12 +174,13 @@ void add_record_axis(const StudyContext& context, const TomlValue& root, const T
 std::vector<DrivingRecord> read_driving_records(const StudyContext& context, const TomlValue& root,
                                                 const std::filesystem::path& folder, DataFiles data,
                                                 const mechanics::Network& network,
+                                                std::vector<DrivingRecord> corners,
                                                 const std::optional<WrittenRecordAxis>& axis,
                                                 const char* giver) {
   const TomlEntry* excitation = find_entry(root, "excitation");
-  const auto components = recorded_components(network);
   const auto sections = record_sections(context.source, excitation->value);
-  std::vector<DrivingRecord> all;
+  const auto components = recorded_components(network, corners.size());
+  std::vector<DrivingRecord> all = std::move(corners);
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const TomlSection& section = sections[i];
     DrivingRecord driving{.excitation = components[i], .on_axis = !section.find("file")};

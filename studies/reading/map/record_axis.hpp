@@ -38,11 +38,13 @@ std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, c
 void add_record_axis(const StudyContext& context, const TomlValue& root, const TomlValue& table,
                      Study& study);
 
-// What drives each recorded component of a study whose network is read.  axis: of those that name no file.
-// giver: what may give records, for messages.  folder: of their files.
+// What drives each recorded component of a study whose network is read: corners (NetworkOfStudy::driving),
+// then records.  axis: of those that name no file. giver: what may give records, for messages.  folder: of
+// their files.
 std::vector<DrivingRecord> read_driving_records(const StudyContext& context, const TomlValue& root,
                                                 const std::filesystem::path& folder, DataFiles data,
                                                 const mechanics::Network& network,
+                                                std::vector<DrivingRecord> corners,
                                                 const std::optional<WrittenRecordAxis>& axis,
                                                 const char* giver);
 

@@ -29,11 +29,14 @@ struct DecayChoice : MotionChoice {
   std::optional<StudyValue> reference_frequency;  // omega_h [rad/s]
 };
 
-// [[excitation.record]]: what drives one component of the excitation.
+// [[excitation.record]], or corners of a force or motion: what drives one component of the excitation.
 struct DrivingRecord {
   std::size_t excitation = 0;                // in Network::excitations, of a recorded kind
   bool on_axis = false;                      // an axis gives the records
   std::vector<transient::Record> records{};  // one, or that of each value of the axis
+  Position position{};                       // of corners
+
+  bool is_corners() const { return !records.empty() && records.front().is_corners; }
 };
 
 // What drives the motion at a value of the axis of records: records of `driving`.

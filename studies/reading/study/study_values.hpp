@@ -41,6 +41,15 @@ struct StudyDirection {
   bool is_given() const { return !nodes.empty(); }
 };
 
+// A period that is given by its course, as the components of the excitation that its Fourier series has.
+struct PeriodSeries {
+  std::string what;                  // for messages: `motion of "base"`
+  std::size_t first = 0, count = 0;  // in Network::excitations
+  int orders = 0, harmonics = 0;     // the highest that may be there; how many above 0 are
+  double left_out = 0.0;             // mechanics::CornerSeries::left_out
+  std::string note{};                // what else is left out: `; its mean ...`
+};
+
 // All numbers of a network, in the order of mechanics::NetworkValues, and the directions of its signals.
 struct StudyValues {
   StudyValue omega;
@@ -54,6 +63,7 @@ struct StudyValues {
   std::vector<StudyValue> damping;  // of the structure: modal ratios, or the two of rayleigh
   std::vector<StudyCharacteristic> characteristic{};  // of each element; of a table, in place of its value
   std::vector<StudyValue> points{};                   // of all characteristics
+  std::vector<PeriodSeries> series{};
 
   const StudyValue& value(std::size_t e) const { return elements[0][e]; }
   const StudyValue& second(std::size_t e) const { return elements[1][e]; }

@@ -12,6 +12,7 @@
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/quantities/expression.hpp"
 #include "studies/reading/study/study_values.hpp"
+#include "studies/reading/system/corner_reading.hpp"
 #include "studies/reading/system/network_reading.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
 
@@ -69,8 +70,22 @@ void read_rate(NetworkReading& reading, const TomlSection& section, const std::s
   phase.expression = phase.expression + Expression(is_velocity ? -0.5 * pi : pi);
 }
 
+// What belongs to corners alone.
+void refuse_keys_of_corners(const TomlSection& section) {
+  for (const char* key : {"scale", "orders"}) {
+    if (section.find(key))
+      section.fail(rules::beyond_schema(rules::key_without_use), key,
+                   "belongs to a list of corners, not to a harmonic");
+  }
+}
+
 void read_component(NetworkReading& reading, const TomlSection& section, Excitation component) {
-  auto& [network, values] = reading.result;
+  if (const auto key = corner_key(section)) {
+    const NodeKind kind = component.kind == ExcitationKind::force ? NodeKind::mass : NodeKind::prescribed;
+    return read_corners(reading, section, *key, {kind, component.node});
+  }
+  refuse_keys_of_corners(section);
+  auto& [network, values, driving] = reading.result;
   const bool is_force = component.kind == ExcitationKind::force;
   component.order = read_order(section, "order");
   const std::string key = is_force ? "amplitude" : key_of_amplitude(section);
@@ -93,7 +108,7 @@ void read_component(NetworkReading& reading, const TomlSection& section, Excitat
 
 // The number of its even orders depends on crank/rod over the whole study: set_crank_orders().
 void read_crank(NetworkReading& reading, const TomlSection& section, Excitation component) {
-  auto& [network, values] = reading.result;
+  auto& [network, values, driving] = reading.result;
   const std::int64_t taylor_order = section.find("taylor_order") ? section.integer("taylor_order") : 0;
   component.taylor_order = static_cast<int>(taylor_order);
   component.even_orders = component.taylor_order / 2;

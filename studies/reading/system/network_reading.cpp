@@ -10,6 +10,7 @@
 #include "studies/reading/study/parameter_reading.hpp"
 #include "studies/reading/system/belt_check.hpp"
 #include "studies/reading/system/connectivity.hpp"
+#include "studies/reading/system/corner_reading.hpp"
 #include "studies/reading/system/damping_reading.hpp"
 #include "studies/reading/system/element_reading.hpp"
 #include "studies/reading/system/excitation_reading.hpp"
@@ -194,6 +195,8 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
         rules::beyond_schema(rules::missing_section), root.position,
         "the study has no [[mass]] and no [[matrices]]: nothing moves{}",
         kind == StudyKind::identify ? "; leave out the whole system, or add its masses" : "");
+  const bool has_record = is_forced && find_entry(excitation->value, "record");
+  reading.follows_time = kind == StudyKind::transient || (kind == StudyKind::tune && has_record);
   if (is_forced) refuse_records(context, excitation->value, kind);
   if (is_forced) read_prescribed_nodes(reading, excitation->value);
   number = 0;
@@ -201,9 +204,9 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
     read_element(reading, *table, ++number);
   read_damping(reading, root);
   if (is_forced) {
-    const bool may_be_constant = kind == StudyKind::transient || kind == StudyKind::identify ||
-                                 (kind == StudyKind::tune && find_entry(excitation->value, "record"));
+    const bool may_be_constant = reading.follows_time || kind == StudyKind::identify;
     read_excitation(reading, excitation->value, may_be_constant);
+    check_jumps(reading);
     check_every_motion_is_felt(reading, excitation->value);
   }
   read_signals(reading, root);

@@ -22,6 +22,7 @@ namespace frahm::studies {
 struct NetworkOfStudy {
   mechanics::Network network;
   StudyValues values;
+  std::vector<DrivingRecord> driving{};  // of the components that are given by corners, in a transient
 };
 
 // The network while it is read.
@@ -31,6 +32,7 @@ struct NetworkReading {
   const StudyContext& context;
   Parameters& parameters;
   NetworkOfStudy result;
+  bool follows_time = false;  // corners are a course in time, as a record is; otherwise a period
 
   // A name in use and its owner: `mass "main"`. Nodes, elements and signals share one set of names.
   struct TakenName {

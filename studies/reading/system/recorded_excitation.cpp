@@ -61,8 +61,8 @@ RecordedPlace place_of(const TomlSection& section) {
   return {given->key, section.text(given->key), given->of};
 }
 
-Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& network) {
-  switch (place.of) {
+Quantity quantity_of_course(const mechanics::Network& network, RecordOf of, std::size_t node) {
+  switch (of) {
     case RecordOf::acceleration:
       return Quantity::acceleration;
     case RecordOf::velocity:
@@ -72,8 +72,11 @@ Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& netwo
     case RecordOf::force:
       break;
   }
-  const auto node = find_node(network, place.node);
-  return mechanics::rotates(network, node->index) ? Quantity::torque : Quantity::force;
+  return mechanics::rotates(network, node) ? Quantity::torque : Quantity::force;
+}
+
+Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& network) {
+  return quantity_of_course(network, place.of, find_node(network, place.node)->index);
 }
 
 void refuse_records(const StudyContext& context, const TomlValue& excitation, StudyKind kind) {
@@ -84,7 +87,7 @@ void refuse_records(const StudyContext& context, const TomlValue& excitation, St
 }
 
 void read_recorded_components(NetworkReading& reading, const TomlValue& excitation) {
-  auto& [network, values] = reading.result;
+  auto& [network, values, driving] = reading.result;
   for (const TomlSection& section : record_sections(reading.context.source, excitation)) {
     const RecordedPlace place = place_of(section);
     const bool is_force = place.of == RecordOf::force;

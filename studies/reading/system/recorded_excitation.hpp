@@ -23,7 +23,9 @@ std::vector<TomlSection> record_sections(const StudySource& source, const TomlVa
 // Throws StudyError unless exactly one of the four keys is there.
 RecordedPlace place_of(const TomlSection& section);
 
-// What its values are: an acceleration, a speed, a length, or a force, of a rotation a torque.
+// What a force or motion is counted in: a force (of a rotation a torque), a length, a speed or an
+// acceleration. node: index of the mass, or of the support.
+Quantity quantity_of_course(const mechanics::Network& network, transient::RecordOf of, std::size_t node);
 Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& network);
 
 // Refuses records in studies other than transients.
