@@ -36,10 +36,10 @@ const std::string* text_in(const TomlValue& table, std::string_view key) {
 }
 
 // The unit that a table has for its numbers: of the bounds of a design variable, the values of an axis. That
-// of a measured record is of what is in its file, that of a coordinate of what its expression gives.
+// of a record or a period is of what is in its file, that of a coordinate of what its expression gives.
 std::string unit_of_numbers(const TomlValue& table, std::string_view section) {
   const std::string* unit = text_in(table, "unit");
-  return unit && section != "excitation.record" && section != "coordinate" ? *unit : "";
+  return unit && !section.starts_with("excitation.") && section != "coordinate" ? *unit : "";
 }
 
 bool is_in_unit_of_table(const StudyKey* key) {

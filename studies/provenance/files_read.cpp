@@ -31,6 +31,11 @@ std::vector<FileRead> all_of(const Study& study) {
   for (const mechanics::MatrixPart& part : study.network.matrices)
     add(fmt::format("matrices \"{}\": a file", part.name), "matrices " + part.name,
         fmt::format("{} {} {}", digest(part.mass), digest(part.stiffness), digest(part.damping)));
+  for (const PeriodSeries& period : study.values.series) {
+    if (!period.file.empty())
+      add(fmt::format("{}: the file {}", period.what, period.file), fmt::format("period {}", period.first),
+          digest(period.time) + " " + digest(period.samples));
+  }
   std::ranges::sort(all, {}, &FileRead::line);
   return all;
 }

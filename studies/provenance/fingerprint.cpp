@@ -187,6 +187,13 @@ void add_matrices(const Study& study, CanonicalText& text) {
               digest(part.stiffness), digest(part.damping));
 }
 
+void add_periods(const Study& study, CanonicalText& text) {
+  for (const PeriodSeries& period : study.values.series) {
+    if (!period.file.empty())
+      text.line("period {} time {} values {}", period.first, digest(period.time), digest(period.samples));
+  }
+}
+
 // The samples of records, wherever they come from.
 void add_driving_records(const Study& study, CanonicalText& text) {
   if (!study.transient() && !(study.tune() && study.tune()->peaks)) return;
@@ -236,6 +243,7 @@ std::string physics_hash(const Study& study, const Facts& facts, const FactText&
   add_parameters(study, text);
   add_facts(facts, text_of, {Use::physics}, text);
   add_matrices(study, text);
+  add_periods(study, text);
   add_driving_records(study, text);
   if (study.tune()) add_scenarios(*study.tune(), study.parameters.names(), text);
   if (study.identify()) add_measurements(*study.identify(), study.parameters.names(), text);

@@ -30,7 +30,14 @@ inline constexpr StudyWord slider_distributions[] = {
 
 inline constexpr StudyWord harmonic[] = {{"harmonic", "amplitude cos(order omega t + phase)"}};
 inline constexpr StudyWord profiles[] = {
-    harmonic[0], {"crank", "motion of a slider on a rod, driven by a crank that turns with omega t + phase"}};
+    harmonic[0],
+    {"crank", "motion of a slider on a rod, driven by a crank that turns with omega t + phase"},
+    {"file", "one period from a file, as its Fourier series"}};
+inline constexpr StudyWord force_profiles[] = {harmonic[0], profiles[2]};
+inline constexpr StudyWord course_quantities[] = {
+    {"displacement", "the file has the displacement of the support"},
+    {"velocity", "its velocity"},
+    {"acceleration", "its acceleration"}};
 
 inline constexpr StudyWord spacings[] = {{"linear", "in equal steps"}, {"log", "in equal ratios"}};
 

@@ -47,7 +47,9 @@ struct PeriodSeries {
   std::size_t first = 0, count = 0;  // in Network::excitations
   int orders = 0, harmonics = 0;     // the highest that may be there; how many above 0 are
   double left_out = 0.0;             // mechanics::CornerSeries::left_out
-  std::string note{};                // what else is left out: `; its mean ...`
+  std::string note{};                // what else is left out: `, and its mean, 0.1 m/s`
+  std::string file{};                // that it is from, "": none; its samples in SI
+  std::vector<double> time{}, samples{};
 };
 
 // All numbers of a network, in the order of mechanics::NetworkValues, and the directions of its signals.

@@ -44,8 +44,8 @@ std::string acceleration_unit(const std::string& unit) {
   return unit == "g" ? "gravity" : unit;
 }
 
-void take_g(const RecordedPlace& place, RawColumn& column, std::optional<TomlValue>& unit) {
-  if (place.of != RecordOf::acceleration) return;
+void take_g(RecordOf of, RawColumn& column, std::optional<TomlValue>& unit) {
+  if (of != RecordOf::acceleration) return;
   if (column.unit) column.unit = acceleration_unit(*column.unit);
   if (unit && unit->as<std::string>()) unit->content = acceleration_unit(*unit->as<std::string>());
 }
@@ -147,12 +147,10 @@ Record in_window(const StudyContext& context, const TomlSection& section, const 
   return cut;
 }
 
-Record read_driving_record(const StudyContext& context, const TomlSection& section, const RecordFile& file,
-                           const std::filesystem::path& folder, const mechanics::Network& network) {
-  const RecordedPlace place = place_of(section);
-  const transient::Interpolation interpolation = interpolation_of(section, place, network);
+Samples read_samples(const StudyContext& context, const TomlSection& section, const RecordFile& file,
+                     const std::filesystem::path& folder, RecordOf of, Quantity quantity) {
   const std::vector<RecordForm> forms{{{{.name = "time", .quantity = Quantity::time, .increases = true},
-                                        {.name = "value", .quantity = quantity_of(place, network)}},
+                                        {.name = "value", .quantity = quantity}},
                                        1,
                                        true}};
   ColumnReading reading{.record = section, .forms = forms, .file = file.position};
@@ -166,13 +164,22 @@ Record read_driving_record(const StudyContext& context, const TomlSection& secti
                                  file.name, raw.doubtful));
   std::optional<TomlValue> unit;
   if (const TomlValue* value = section.find("unit")) unit = *value;
-  take_g(place, raw.columns[1], unit);
+  take_g(of, raw.columns[1], unit);
   const NamedFile named{section, file.position};
+  return {in_si(context, named, raw, raw.columns[0], {}),
+          in_si(context, named, raw, raw.columns[1], {unit ? &*unit : nullptr})};
+}
+
+Record read_driving_record(const StudyContext& context, const TomlSection& section, const RecordFile& file,
+                           const std::filesystem::path& folder, const mechanics::Network& network) {
+  const RecordedPlace place = place_of(section);
+  const transient::Interpolation interpolation = interpolation_of(section, place, network);
+  Samples samples = read_samples(context, section, file, folder, place.of, quantity_of(place, network));
   return in_window(context, section, file,
                    {.name = file.name,
                     .of = place.of,
-                    .time = in_si(context, named, raw, raw.columns[0], {}),
-                    .values = in_si(context, named, raw, raw.columns[1], {unit ? &*unit : nullptr}),
+                    .time = std::move(samples.time),
+                    .values = std::move(samples.values),
                     .interpolation = interpolation});
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "studies/reading/study/study_context.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
@@ -13,6 +14,16 @@ struct RecordFile {
   std::string name;   // as the study writes it
   Position position;  // of the name
 };
+
+// Two columns of a file in SI, by the section's `time`, `column` and `unit`.
+struct Samples {
+  std::vector<double> time;    // [s], ascending
+  std::vector<double> values;  // as many
+};
+// of: what the values are of; an acceleration in g is one in standard gravity.  quantity: theirs.  folder: of
+// the study. Throws StudyError for what is wrong with columns or units.
+Samples read_samples(const StudyContext& context, const TomlSection& section, const RecordFile& file,
+                     const std::filesystem::path& folder, transient::RecordOf of, Quantity quantity);
 
 // The record of [[excitation.record]] from a file: its columns in SI, cut to the section's window, its time
 // counted from the window's start.  folder: of the study.

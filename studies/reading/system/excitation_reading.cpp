@@ -14,6 +14,7 @@
 #include "studies/reading/study/study_values.hpp"
 #include "studies/reading/system/corner_reading.hpp"
 #include "studies/reading/system/network_reading.hpp"
+#include "studies/reading/system/period_file.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
 
 namespace frahm::studies {
@@ -35,7 +36,7 @@ int read_order(const TomlSection& section, const std::string& key) {
   return static_cast<int>(section.integer(key));
 }
 
-// "harmonic" or "crank", and no key of the other.
+// "harmonic", "crank" or "file", and no key of the others.
 std::string read_profile(const TomlSection& section) {
   std::string profile = section.choice("profile");
   section.keep_to(profile);
@@ -124,7 +125,7 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
                             label(table, "force on", named, force_path, number), force_path);
   const mechanics::Node mass =
       read_mass(section, reading.result.network, named, "a force must act on a mass");
-  read_profile(section);
+  if (read_profile(section) == "file") return read_period_file(reading, section, mass);
   read_component(reading, section, {ExcitationKind::force, mass.index});
 }
 
@@ -135,7 +136,10 @@ TomlSection motion_section(const NetworkReading& reading, const TomlValue& table
 void read_motion(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section = motion_section(reading, table, number);
   const auto node = find_node(reading.result.network, section.identifier("node"));
-  if (read_profile(section) == "crank") {
+  const std::string profile = read_profile(section);
+  if (profile == "file") {
+    read_period_file(reading, section, *node);
+  } else if (profile == "crank") {
     read_crank(reading, section, {ExcitationKind::crank, node->index});
   } else {
     read_component(reading, section, {ExcitationKind::motion, node->index});

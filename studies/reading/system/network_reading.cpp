@@ -185,6 +185,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
   const TomlEntry* excitation = find_entry(root, "excitation");
   const bool is_forced = excitation != nullptr;  // the table of keys says which kinds need or have one
   NetworkReading reading(context, parameters);
+  reading.folder = folder;
   if (find_entry(root, "damping")) keep_name_of_damping(reading);
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "mass"))

@@ -32,7 +32,8 @@ struct NetworkReading {
   const StudyContext& context;
   Parameters& parameters;
   NetworkOfStudy result;
-  bool follows_time = false;  // corners are a course in time, as a record is; otherwise a period
+  std::filesystem::path folder{};  // of the files that it names
+  bool follows_time = false;       // corners are a course in time, as a record is; otherwise a period
 
   // A name in use and its owner: `mass "main"`. Nodes, elements and signals share one set of names.
   struct TakenName {

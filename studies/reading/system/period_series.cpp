@@ -35,15 +35,30 @@ void check_closes(const TomlSection& section, const Period& period) {
       first, last);
 }
 
+bool is_rate(const Period& period) {
+  return period.of == RecordOf::velocity || period.of == RecordOf::acceleration;
+}
+
+bool has_mean(const Period& period, const CornerSeries& series) {
+  return std::abs(series.mean) > few_digits * largest_of(period.corners);
+}
+
 void check_mean(const TomlSection& section, const Period& period, const CornerSeries& series) {
-  const bool is_rate = period.of == RecordOf::velocity || period.of == RecordOf::acceleration;
-  if (!is_rate || std::abs(series.mean) <= few_digits * largest_of(period.corners)) return;
+  if (!period.file.empty() || !is_rate(period) || !has_mean(period, series)) return;
   const bool is_velocity = period.of == RecordOf::velocity;
   section.fail(rules::wrong_order, period.key,
                "its mean over the period is {:.6g}, but a support that comes back has a mean {} of 0; {}",
                series.mean, is_velocity ? "velocity" : "acceleration",
                is_velocity ? "a belt is another [[excitation.motion]] of this node, of order 0"
                            : "take the mean off the values");
+}
+
+// What a measurement has and a support that comes back does not.
+std::string note_on_mean(const NetworkReading& reading, const Period& period, const CornerSeries& series) {
+  if (!is_rate(period) || !has_mean(period, series)) return "";
+  const Quantity quantity = quantity_of_course(reading.result.network, period.of, period.node.index);
+  const std::string unit = reading.context.dimensionless ? "" : fmt::format(" {}", written_si_unit(quantity));
+  return fmt::format(", and its mean, {:.3g}{}", series.mean, unit);
 }
 
 // The displacement of a velocity c e^(i n w t) is c/(n w) e^(i n w t - i pi/2), that of an acceleration
@@ -59,7 +74,7 @@ void add_order(NetworkReading& reading, const Period& period, int order, std::co
   amplitude.expression = Expression(order > 0 ? std::abs(c) : c.real()) * scale.expression;
   const Expression rate = Expression(order) * values.omega.expression;
   double turned = order > 0 ? std::arg(c) : 0.0;
-  if (period.of == RecordOf::velocity || period.of == RecordOf::acceleration) {
+  if (is_rate(period)) {
     amplitude.expression = amplitude.expression / rate;
     turned -= 0.5 * std::numbers::pi;
   }
@@ -92,9 +107,16 @@ void add_period(NetworkReading& reading, const TomlSection& section, const Perio
   PeriodSeries noted{.what = section.where(),
                      .first = network.excitations.size(),
                      .orders = orders,
-                     .left_out = series.left_out};
-  const bool is_rate = period.of == RecordOf::velocity || period.of == RecordOf::acceleration;
-  if (series.mean != 0.0 && !is_rate) add_order(reading, period, 0, series.mean, scale, phase);
+                     .left_out = series.left_out,
+                     .note = note_on_mean(reading, period, series),
+                     .file = period.file};
+  if (!period.file.empty()) {
+    for (const Corner& corner : period.corners) {
+      noted.time.push_back(corner.at);
+      noted.samples.push_back(corner.value);
+    }
+  }
+  if (series.mean != 0.0 && !is_rate(period)) add_order(reading, period, 0, series.mean, scale, phase);
   for (int n = 1; n <= orders; ++n) {
     const std::complex<double> c = series.harmonics[static_cast<std::size_t>(n) - 1];
     if (c == 0.0) continue;

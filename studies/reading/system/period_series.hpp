@@ -16,12 +16,14 @@ struct Period {
   mechanics::Node node;
   std::vector<mechanics::Corner> corners;  // straight lines between them; the last closes the period
   std::string key;                         // of the section, that gives them
+  std::string file = "";  // that they are from; then a velocity or an acceleration may have a mean
 };
 
 // Adds a component for each order of the period's Fourier series that is not zero, up to the section's
 // `orders`, and notes what is left out (StudyValues::series). A motion has the series of its displacement:
 // that of a velocity or an acceleration integrated.
-// Throws StudyError where a displacement does not close, or a velocity or an acceleration has a mean.
+// Throws StudyError where a displacement does not close, or a velocity or an acceleration that is not from a
+// file has a mean.
 void add_period(NetworkReading& reading, const TomlSection& section, const Period& period);
 
 }  // namespace frahm::studies

@@ -7,10 +7,12 @@
 #include "studies/map/map_plan.hpp"
 #include "studies/motion/one_motion.hpp"
 #include "studies/program/modes_table.hpp"
+#include "studies/provenance/files_read.hpp"
 #include "studies/provenance/fingerprint.hpp"
 #include "studies/reading/parse_study.hpp"
 #include "studies/reading/study/series_text.hpp"
 #include "studies/reading/study/study.hpp"
+#include "tests/studies/temporary_folder.hpp"
 
 // Forces and motions of supports by corners, in transients and as a period.
 namespace corner_test {
@@ -93,10 +95,9 @@ TEST_CASE("A period of corners is its Fourier series, with the orders that it ha
   REQUIRE(study.values.series.size() == 1);
   const PeriodSeries& series = study.values.series[0];
   CHECK(series.harmonics == 4);
-  CHECK(
-      series_texts(study.values)[0] ==
-      "motion of \"base\": Fourier series to order 7, 4 of them not zero; 1.8 % of its root mean square is "
-      "left out");
+  CHECK(series_texts(study.values)[0] ==
+        "motion of \"base\": Fourier series to order 7, 4 of them not zero; 1.8 % of its root mean square is "
+        "left out");
 }
 
 TEST_CASE("A period of a velocity is that of the displacement that it integrates to, at every frequency") {
@@ -154,6 +155,66 @@ TEST_CASE("Other corners are another study, the same in other units are not") {
   CHECK(first == of("[[0, 0], [1, { value = 3, unit = \"mm\" }], [2, 0]]"));
   CHECK(first.physics != of("[[0, 0], [1, 0.004], [2, 0]]").physics);
   CHECK(first.physics != of("[[0, 0], [0.5, 0.003], [2, 0]]").physics);
+}
+
+// profile = "file".
+struct OfFile {
+  TemporaryFolder folder;
+  Study sweep(const std::string& csv, const std::string& keys) const {
+    folder.write("drive.csv", csv);
+    return parse_study(text_of_sweep(motion("profile = \"file\"\nfile = \"drive.csv\"\n" + keys)),
+                       folder / "study.toml");
+  }
+};
+
+TEST_CASE("A period from a file is that of the corners at its rows, wherever its time begins") {
+  const OfFile of;
+  const Study study =
+      of.sweep("t [ms],y [mm]\n5,0\n6,3\n8,-3\n9,0\n", "orders = 7\nphase = 0.3\nscale = \"s\"\n");
+  const Study same =
+      parse_study(text_of_sweep(motion("displacement = [[0, 0], [1, 3e-3], [3, -3e-3], [4, 0]]\norders = 7\n"
+                                       "phase = 0.3\nscale = \"s\"")),
+                  "study.toml");
+  const auto a = stated_values(study), b = stated_values(same);
+  REQUIRE(a.excitation.size() == 4);
+  REQUIRE(b.excitation.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(study.network.excitations[i].order == same.network.excitations[i].order);
+    CHECK(std::abs(a.excitation[i].amplitude - b.excitation[i].amplitude) < 6e-3 * rounding);
+    CHECK(std::abs(std::remainder(a.excitation[i].phase - b.excitation[i].phase, 2.0 * pi)) <
+          100.0 * rounding);
+  }
+  CHECK(series_texts(study.values) == series_texts(same.values));
+}
+
+TEST_CASE("The mean of a measured acceleration is left out, and said so") {
+  // In g: a triangle from 0 to 0.2 g about its mean 0.1 g, 4/(pi n)^2 of odd orders n.
+  const OfFile of;
+  const Study study =
+      of.sweep("t,a\n0,0\n1,0.2\n2,0\n", "quantity = \"acceleration\"\nunit = \"g\"\norders = 3\n");
+  const auto values = stated_values(study);
+  REQUIRE(values.excitation.size() == 2);
+  const double g = 9.80665, rate = 4.0;
+  CHECK(std::abs(values.excitation[0].amplitude - 0.1 * g * 8.0 / (pi * pi) / (rate * rate)) < rounding);
+  CHECK(std::abs(values.excitation[1].amplitude - 0.1 * g * 8.0 / (9.0 * pi * pi) / (9.0 * rate * rate)) <
+        rounding);
+  CHECK(series_texts(study.values)[0] ==
+        "motion of \"base\": Fourier series to order 3, 2 of them not zero; 4.8 % of its root mean square is "
+        "left out, and its mean, 0.981 m/s2");
+}
+
+TEST_CASE("A changed file of a period is another study, and no result of it is read with another file") {
+  const OfFile of;
+  const std::string before = "t,y\n0,0\n1,2\n2,0\n", after = "t,y\n0,0\n1,3\n2,0\n";
+  const Study study = of.sweep(before, "");
+  const std::string files = files_read(study);
+  const auto first = plan_map(study, {}).fingerprint;
+  CHECK(first == plan_map(of.sweep(before, ""), {}).fingerprint);
+  refuse_changed_files(of.sweep(before, ""), files, "result.h5");
+  const Study changed = of.sweep(after, "");
+  CHECK(first.physics != plan_map(changed, {}).fingerprint.physics);
+  CHECK_THROWS_WITH(refuse_changed_files(changed, files, "result.h5"),
+                    Catch::Contains("motion of \"base\"") && Catch::Contains("drive.csv"));
 }
 
 }  // namespace
