@@ -11,7 +11,7 @@ std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& netw
   const std::size_t masses = network.masses.size(), harmonics = assembly.orders().size();
   const bool is_small = assembly.contacts() <= Sizes<1, 1>::kMaxContacts &&
                         assembly.bends().count() <= Sizes<1, 1>::kMaxContacts &&
-                        assembly.internal_forces() == 0;
+                        assembly.internal_forces() == 0 && network.joints.empty();
   if (is_small && harmonics == 1 && masses == 1)
     return std::make_unique<SizedSolver<1, 1>>(network, quantities, path, wanted);
   if (is_small && harmonics == 1 && masses == 2)

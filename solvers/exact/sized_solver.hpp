@@ -235,7 +235,7 @@ History SizedSolver<N, H>::history(std::span<const double> phases, SliderForces 
   const auto& network = assembly_.network();
   History result = History::of(network, sliders);
   const Forms<N, H> forms(assembly_, flow_);
-  const std::vector<mechanics::Incidence> signals = mechanics::signal_incidences(network);
+  const std::vector<mechanics::Incidence> signals = mechanics::incidences_beyond_masses(network);
   const Eigen::Index n = flow_.equations().masses();
   const double step = flow_.equations().step;
   OrbitSteps<N, H> steps(flow_);

@@ -11,6 +11,7 @@
 #include "solvers/flow/sparse_system.hpp"
 #include "solvers/flow/step_bends.hpp"
 #include "solvers/flow/step_free.hpp"
+#include "solvers/flow/step_joints.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/recorded_columns.hpp"
 
@@ -63,8 +64,9 @@ struct StepEquations {
   std::vector<Eigen::Index> internal_of;  // of each contact: its internal force, -1: none
   Eigen::MatrixXd D;                      // n x s
   Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h, 0 without a damper
-  Eigen::MatrixXd internal_drive;                     // k p^T y'(t) [N a step]
-  Eigen::VectorXd phase_rate;                         // order_k omega h [rad a step], size H
+  Eigen::MatrixXd internal_drive;                     // k p^T y'(t) [N a step], and what loads of joints add
+  StepJoints joints;
+  Eigen::VectorXd phase_rate;  // order_k omega h [rad a step], size H
   // For the records' numbers r, r', r'', r''' (mechanics/recorded_columns.hpp): the size in which each is
   // counted [SI]; the rate at which it changes per size of the next [1/step], 0 of r'''; their values at an
   // instant from which on they are polynomials, none before they are set; and omega t there [rad].

@@ -123,6 +123,8 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.D = system.D;
   eq.internal_stiffness = system.internal_stiffness;
   eq.internal_rate = h * system.internal_rate;
+  eq.joints.B = system.joints.B;
+  eq.joints.X = system.joints.X;
   set_free(system, eq);
   eq.MW = eq.M_inverse * eq.W;
   eq.mobility = eq.W.transpose() * eq.MW;
@@ -148,6 +150,22 @@ void set_record_sizes(const Eigen::VectorXd& size, StepEquations<N, H>& eq) {
     if (mechanics::has_derivative(k)) eq.recorded_rate[k] = eq.step * size[k + 1] / eq.recorded_size[k];
   }
   eq.recorded_at.resize(0);
+}
+
+// Loads P and supports y of joints:  x = ... + B_support y + A P,  s' = ... + k load_drive^T P'.
+template <int N, int H>
+void set_loads_of_joints(const mechanics::Joints& joints, StepEquations<N, H>& eq) {
+  StepJoints& its = eq.joints;
+  on_oscillators(joints.constant_load, joints.load, joints.recorded_load, eq.recorded_size, its.load);
+  Eigen::MatrixXd load_rate(its.load.rows(), its.load.cols());
+  eq.differentiate(its.load, load_rate);
+  its.offset = joints.A * its.load + joints.B_support * eq.motion;
+  its.offset_velocity = joints.A * load_rate + joints.B_support * eq.motion_velocity;
+  its.offset_acceleration.resizeLike(its.offset);
+  eq.differentiate(its.offset_velocity, its.offset_acceleration);
+  eq.internal_drive += eq.internal_stiffness.asDiagonal() * (joints.load_drive.transpose() * load_rate);
+  its.drive_rate.resizeLike(eq.internal_drive);
+  eq.differentiate(eq.internal_drive, its.drive_rate);
 }
 
 // K q_s = what the supports' recorded displacements exert.
@@ -238,6 +256,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   set_bend_motion(system.bends, eq);
   eq.internal_drive.noalias() =
       eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
+  if (system.joints.any()) set_loads_of_joints(system.joints, eq);
 
   set_quasi_static(system, eq);
   static_norm_ = std::sqrt(static_energy(eq) + dragged_energy(eq, system));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solvers/flow/flow.hpp"
+#include "solvers/flow/joint_rows.hpp"
 #include "solvers/mechanics/element_forces.hpp"
 
 namespace frahm::periodic {
@@ -51,6 +52,14 @@ class Forms {
   Form velocity(const mechanics::Incidence& at) const;
   Form acceleration(const mechanics::Incidence& at, const Mode<N, H>& mode) const;
 
+  // x' of a joint by itself.
+  Form velocity_of_joint(Eigen::Index joint) const {
+    const Eigen::Index j = flow_.equations().joints.B.rows();
+    return velocity({Eigen::VectorXd::Zero(flow_.equations().masses()),
+                     Eigen::VectorXd::Zero(flow_.equations().motion.rows()),
+                     Eigen::VectorXd::Unit(j, joint)});
+  }
+
   // Force [N] of an element.
   Form element_force(std::size_t element, const mechanics::ElementCoefficients& law,
                      const Mode<N, H>& mode) const;
@@ -73,6 +82,7 @@ class Forms {
 
  private:
   void add_bends(std::size_t element, const Mode<N, H>& mode, Form& form) const;
+  Form acceleration_of_joints(const mechanics::Incidence& at, const Mode<N, H>& mode) const;
 
   const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;
@@ -83,6 +93,7 @@ LinearForm<N, H> Forms<N, H>::displacement(const mechanics::Incidence& at) const
   Form form = zero();
   form.z.head(at.w.size()) = at.w;
   if (at.p.size() > 0) form.u = flow_.equations().motion.transpose() * at.p;
+  if (at.has_joint()) add_joints(flow_.equations(), at.j, form.z, form.u);
   return form;
 }
 
@@ -92,11 +103,13 @@ LinearForm<N, H> Forms<N, H>::velocity(const mechanics::Incidence& at) const {
   Form form = zero();
   form.z.segment(at.w.size(), at.w.size()) = at.w / eq.step;
   if (at.p.size() > 0) form.u = eq.motion_velocity.transpose() * at.p / eq.step;
+  if (at.has_joint()) add_velocity_of_joints(eq, at.j / eq.step, form.z, form.u);
   return form;
 }
 
 template <int N, int H>
 LinearForm<N, H> Forms<N, H>::acceleration(const mechanics::Incidence& at, const Mode<N, H>& mode) const {
+  if (at.has_joint()) return acceleration_of_joints(at, mode);
   const StepEquations<N, H>& eq = flow_.equations();
   const Configuration<N, H>& c = flow_.configuration(mode);
   const double per_second_squared = 1.0 / (eq.step * eq.step);
@@ -106,6 +119,26 @@ LinearForm<N, H> Forms<N, H>::acceleration(const mechanics::Incidence& at, const
   form.u = c.Au.transpose() * w;
   form.u[0] += w.dot(mode.acceleration);
   if (at.p.size() > 0) form.u += eq.motion_acceleration.transpose() * at.p * per_second_squared;
+  return form;
+}
+
+// w^T a + x'' with  x'' = B a + X s'' + offset'' u,  s'' = k D^T a - rate s' + drive' u: the acceleration of
+// masses in the direction of a, and what follows from the velocities.
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::acceleration_of_joints(const mechanics::Incidence& at,
+                                                     const Mode<N, H>& mode) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::Index n = at.w.size();
+  const Eigen::VectorXd j = at.j / (eq.step * eq.step), s = eq.joints.X.transpose() * j;
+  mechanics::Incidence of_masses{at.w, at.p};
+  of_masses.w += eq.joints.B.transpose() * at.j +
+                 eq.D * eq.internal_stiffness.cwiseProduct(eq.joints.X.transpose() * at.j);
+  Form form = acceleration(of_masses, mode);
+  const Eigen::VectorXd slowed = eq.internal_rate.cwiseProduct(s);
+  form.z.segment(n, n) -= eq.D * eq.internal_stiffness.cwiseProduct(slowed);
+  form.z.tail(s.size()) += eq.internal_rate.cwiseProduct(slowed);
+  form.u += eq.joints.offset_acceleration.transpose() * j + eq.joints.drive_rate.transpose() * s -
+            eq.internal_drive.transpose() * slowed;
   return form;
 }
 

@@ -11,6 +11,7 @@
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/joints.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
 
 namespace frahm::mechanics {
@@ -70,8 +71,9 @@ double more_of(std::span<const double> more, std::size_t element) {
   return more.empty() ? 0.0 : more[element];
 }
 
-// Whether springs between two nodes each join every mass to the ground or to a support.
+// Whether springs between two nodes each join every mass to the ground or to a support; joints are not asked.
 bool are_chained(const Network& network, const LinearSystem& system) {
+  if (!network.joints.empty()) return false;
   const std::size_t held = network.masses.size();
   std::vector<std::size_t> parent(held + 1);
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -115,7 +117,8 @@ Eigen::MatrixXd strained_combinations(const Assembly& assembly, const LinearSyst
   const Network& network = assembly.network();
   Rows rows(static_cast<Index>(network.masses.size()));
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (acts(system.coefficients[e].stiffness, more_of(more, e))) rows.add(assembly.incidences()[e].w);
+    if (acts(system.coefficients[e].stiffness, more_of(more, e)))
+      rows.add(at_rest(system, assembly.incidences()[e]));
   }
   for (const MatrixPart& part : network.matrices) rows.add(strained_by(part.stiffness), part.nodes);
   return rows.matrix();
@@ -128,7 +131,7 @@ Eigen::MatrixXd damped_combinations(const Assembly& assembly, const LinearSystem
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const ElementCoefficients& law = system.coefficients[e];
     if (acts(law.damping, more_of(more, e)) || law.internal_damping != 0.0)
-      rows.add(assembly.incidences()[e].w);
+      rows.add(at_rest(system, assembly.incidences()[e]));
   }
   const MatrixXd rates = structural_rates(system);
   for (Index i = 0; i < rates.rows(); ++i)
@@ -173,17 +176,23 @@ Eigen::MatrixXd find_free_directions(const Assembly& assembly, const LinearSyste
   return free_of(strained_combinations(assembly, system), system.M);
 }
 
+// With joints as coordinates of their own, which springs all hold.
 bool may_have_free_masses(const Network& network) {
-  const auto n = static_cast<Index>(network.masses.size());
-  Rows rows(n);
+  const auto n = static_cast<Index>(network.masses.size()), j = static_cast<Index>(network.joints.size());
+  Rows rows(n + j);
   for (const Element& element : network.elements) {
-    if (kind_of(element).holds) rows.add(incidence(network, element).w);
+    if (!kind_of(element).holds) continue;
+    const Incidence at = incidence(network, element);
+    Eigen::VectorXd row(n + j);
+    row << at.w, at.j;
+    rows.add(row);
   }
   for (const MatrixPart& part : network.matrices) rows.add(strained_by(part.stiffness), part.nodes);
-  return free_of(rows.matrix(), MatrixXd::Identity(n, n)).cols() > 0;
+  return free_of(rows.matrix(), MatrixXd::Identity(n + j, n + j)).cols() > 0;
 }
 
 bool has_free_masses(const Assembly& assembly, const NetworkValues& values) {
+  if (!assembly.network().joints.empty()) return may_have_free_masses(assembly.network());
   const auto& elements = assembly.network().elements;
   const auto n = static_cast<Index>(assembly.network().masses.size());
   LinearSystem springs;

@@ -10,6 +10,7 @@
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/free_directions.hpp"
+#include "solvers/mechanics/joints.hpp"
 #include "solvers/mechanics/recorded_columns.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/smooth_laws.hpp"
@@ -59,10 +60,12 @@ void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string&
 
 Incidence incidence(const Network& network, const Direction& u) {
   Incidence result{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size())),
-                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size()))};
+                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size())),
+                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.joints.size()))};
   for (const auto& [node, factor] : u) {
     if (node.kind == NodeKind::mass) result.w[static_cast<Eigen::Index>(node.index)] += factor;
     if (node.kind == NodeKind::prescribed) result.p[static_cast<Eigen::Index>(node.index)] += factor;
+    if (node.kind == NodeKind::joint) result.j[static_cast<Eigen::Index>(node.index)] += factor;
   }
   return result;
 }
@@ -80,7 +83,7 @@ Assembly::Assembly(const Network& network, FreeMasses free)
     const Element& element = network_.elements[e];
     const ElementKind& kind = kind_of(element);
     incidences_.push_back(incidence(network_, element));
-    if (incidences_.back().w.isZero(0.0)) {
+    if (incidences_.back().w.isZero(0.0) && !incidences_.back().has_joint()) {
       throw MechanicsError("element '" + element.name + "' joins no moving node");
     }
     if (kind.has_internal_force) internal_[e] = static_cast<Eigen::Index>(internal_forces_++);
@@ -92,11 +95,20 @@ Assembly::Assembly(const Network& network, FreeMasses free)
   weigh_support_force();
   if (free_ == FreeMasses::allowed) clean_floating_matrices();
   add_up_matrices();
+  if (network_.joints.empty()) return;
+  check_elements_of_joints(network_, incidences_);
+  joint_directions_ = directions_of_joints(network_, incidences_);
+  internal_forces_ += static_cast<std::size_t>(joint_directions_.damped.cols());
 }
 
 // Where all springs together leave masses free, what is rounding in the matrices must not hold them either.
 void Assembly::clean_floating_matrices() {
   if (network_.matrices.empty()) return;
+  if (!network_.joints.empty()) {
+    if (!may_have_free_masses(network_)) return;
+    for (MatrixPart& part : network_.matrices) part.stiffness = without_rounding(part.stiffness);
+    return;
+  }
   LinearSystem every_spring;
   const auto n = static_cast<Eigen::Index>(network_.masses.size());
   every_spring.M.setIdentity(n, n);
@@ -216,7 +228,7 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
       values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;
   system.coefficients.resize(network_.elements.size());
   // Each coefficient adds coefficient * w w^T to the block of the masses and coefficient * w p^T to that of
-  // the supports.
+  // the supports; those of joints follow.
   const auto add = [](Eigen::MatrixXd& block, Eigen::MatrixXd& support, const Incidence& at, double value) {
     if (value == 0.0) return;
     block.noalias() += value * at.w * at.w.transpose();
@@ -232,8 +244,10 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
                               .friction = added.limit,
                               .internal = internal_[e],
                               .internal_damping = added.internal_damping};
-    add(system.K, system.K_support, at, added.stiffness);
-    add(system.C, system.C_support, at, added.damping);
+    if (!at.has_joint()) {
+      add(system.K, system.K_support, at, added.stiffness);
+      add(system.C, system.C_support, at, added.damping);
+    }
     add(system.M, system.M_support, at, added.inertance);
     if (const double excess = support_force_.excess[static_cast<Eigen::Index>(e)]; excess != 0.0) {
       system.felt_inertia += excess * added.inertance * at.w.transpose();
@@ -257,10 +271,13 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
     }
   }
   weigh_laws(values, system);
-  require_positive_definite(system.M, "mass",
-                            "a mass of zero needs an inerter that moves with it; a spring and a slider in "
-                            "series are one jenkins element",
-                            network_);
+  require_positive_definite(
+      system.M, "mass",
+      "a mass of zero needs an inerter to a mass, to the ground or to a node of prescribed "
+      "motion (in a series an inerter may change places with a spring or a damper); a spring and a slider in "
+      "series are one jenkins element",
+      network_);
+  if (!network_.joints.empty()) condense_joints(*this, system);
   check_stiffness(system);
   set_structural_damping(*this, values.damping, system);
   find_resisted(system);
@@ -361,11 +378,12 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
   const auto n = static_cast<Eigen::Index>(network_.masses.size());
   const auto p = static_cast<Eigen::Index>(network_.prescribed.size());
   const auto harmonics = static_cast<Eigen::Index>(orders_.size());
+  const auto forced = n + static_cast<Eigen::Index>(network_.joints.size());
   system.omega = values.omega;
-  system.constant_force.setZero(n);
+  system.constant_force.setZero(forced);
   system.constant_motion.setZero(p);
   system.belt_velocity.setZero(p);
-  system.force.setZero(n, harmonics);
+  system.force.setZero(forced, harmonics);
   system.motion.setZero(p, harmonics);
 
   for (std::size_t k = 0; k < network_.excitations.size(); ++k) {
@@ -391,9 +409,11 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
     const auto place = std::lower_bound(orders_.begin(), orders_.end(), excitation.order) - orders_.begin();
     (is_force ? system.force : system.motion)(node, place) += std::polar(amplitude, phase);
   }
+  if (forced > n) part_loads_of_joints(n, system);
   system.constant_applied_force = system.constant_force;
   system.applied_force = system.force;
   set_recorded(network_, values, system);
+  if (forced > n) load_masses_by_joints(system);
   if (p == 0) return;
 
   // What the supports exert: f = -(K_s y + C_s y' + M_s y''), harmonic by harmonic. What they exert through

@@ -16,11 +16,14 @@ class MechanicsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// How an element acts: u = w^T q + p^T y, with q the displacements of the masses and y those of the
-// prescribed nodes: the factors of its direction.
+// How an element acts: u = w^T q + p^T y + j^T x, with q the displacements of the masses, y those of the
+// prescribed nodes and x those of the joints: the factors of its direction.
 struct Incidence {
-  Eigen::VectorXd w;  // size n
-  Eigen::VectorXd p;  // size of Network::prescribed
+  Eigen::VectorXd w;    // size n
+  Eigen::VectorXd p;    // size of Network::prescribed
+  Eigen::VectorXd j{};  // size of Network::joints
+
+  bool has_joint() const { return j.size() > 0 && !j.isZero(0.0); }
 };
 Incidence incidence(const Network& network, const Direction& u);
 Incidence incidence(const Network& network, const Element& element);
@@ -33,6 +36,7 @@ struct SupportForce {
   Eigen::VectorXd counted;  // 1 of a mass on which a force counts (a torque, where the ground takes those), 0
   Eigen::VectorXd c;        // NaN where the motion of the masses does not tell what the supports take
   Eigen::VectorXd excess;   // c^T w_e + s_e of each element, of an inerter; otherwise 0
+  Eigen::VectorXd joint_counted, joint_c;  // the same for forces on joints
 };
 
 // The part of an element with a law in a contact. Elements of a law that merges, along the same direction,
@@ -54,12 +58,29 @@ struct ElementCoefficients {
   double internal_damping = 0.0;  // of the damper that s runs through [N s/m], 0: none
 };
 
+// How the joints follow the masses (joints.hpp): their displacements are
+//   x = B q + B_support y + A P(t) + X s,
+// P(t) the forces on them, and s the internal forces: those of the joints' damped directions are the last
+// ones. Without rows where the network has no joints.
+// Shapes for j joints: B j x n, B_support j x p, A j x j, X j x s, load_drive j x s.
+struct Joints {
+  Eigen::MatrixXd B, B_support, A, X;
+  Eigen::MatrixXd load_drive;     // s' = k (D^T q' + p^T y' + load_drive^T P') - rate s
+  Eigen::VectorXd constant_load;  // P(t) [N], in the form of f(t) below
+  Eigen::MatrixXcd load;
+  Eigen::MatrixXd recorded_load;
+  Eigen::MatrixXd damped;  // the combinations of joints that s belong to, j x (their number)
+  // Of a derivative alone, which leaves `damped` as it is: of k in k X and of rate, s x s.
+  Eigen::MatrixXd stiffness_by, rate_by;
+
+  bool any() const { return B.rows() > 0; }
+};
+
 // Equation of motion of a network of n masses, p prescribed nodes and m contacts:
 //
 //   M q'' + C q' + K q + sum_e d_e s_e = f(t) - sum_j w_j lambda_j,
-//   s_e' = k_e (d_e^T q' + p_e^T y') - rate_e s_e              of each internal force: a Maxwell element's,
-//   or
-//                                                              a contact's whose law has one
+//   s_e' = k_e (d_e^T q' + p_e^T y') - rate_e s_e              of each internal force: a Maxwell element's, a
+//                                                              contact's whose law has one, or of joints
 //   lambda_j in F_j Sgn(w_j^T q' + p_j^T y')                   of each contact of the law `coulomb`; what
 //                                                              others do, their law says (solvers/laws)
 //   y(t) = y_0 + V t + Re sum_k Y_k e^{i order_k omega t}; V only of nodes whose displacement no law asks for
@@ -116,6 +137,7 @@ struct LinearSystem {
   double recorded_interval = 0.0;  // between all times of the records [s]; 0: none, or they differ
   SupportForce support_force;
   Eigen::RowVectorXd felt_inertia, felt_inertia_support;  // its parts by -q'' and by -y''
+  Joints joints;
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
@@ -125,6 +147,13 @@ struct LinearSystem {
 // Whether masses may be held by no spring: then K is positive definite but for the free directions, in which
 // it is zero.
 enum class FreeMasses { refused, allowed };
+
+// Combinations of joints, in columns of j rows, that dampers strain, and those that none does; groups that no
+// element joins lie side by side: of group g the damped ones are first[g], ... first[g + 1] - 1.
+struct JointDirections {
+  Eigen::MatrixXd damped, undamped;
+  std::vector<Eigen::Index> first{0};
+};
 
 // Builds LinearSystems of one network. Topology is worked out once; `set_values` and `set_forcing` only fill
 // numbers in and do not allocate after the first call.
@@ -155,6 +184,7 @@ class Assembly {
   bool matrices_depend_on_frequency() const { return depends_on_frequency_; }
   // Sums of Network::matrices, n x n each; 0 x 0 where there are none.
   const MatrixPart& matrices() const { return matrices_; }
+  const JointDirections& joint_directions() const { return joint_directions_; }
 
  private:
   void place_in_contact(std::size_t element);
@@ -181,6 +211,7 @@ class Assembly {
   std::size_t internal_forces_ = 0;
   MatrixPart matrices_;
   Bends bends_;
+  JointDirections joint_directions_;
 };
 
 }  // namespace frahm::mechanics

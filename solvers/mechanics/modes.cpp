@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/null_space.hpp"
@@ -22,6 +23,22 @@ double damping_ratio(const mechanics::LinearSystem& system, const Eigen::VectorX
   if (omega == 0.0) return kNone;
   const double loss = shape.dot(system.C * shape) + strain.dot(dampers.asDiagonal() * strain);
   return loss / (2.0 * omega * shape.dot(system.M * shape));
+}
+
+// With G, k of the joints' damped directions (mechanics/joints.hpp), t = G D^T phi their share in a mode, and
+// R = (i omega G + k)^-1, the loss is  t^T G^-1 t + omega Im(t^T R t).  Its derivative by G, k and D, at G
+// = 1.
+double loss_of_joints_by(const mechanics::LinearSystem& system, const mechanics::LinearSystem& by,
+                         const Eigen::VectorXd& strain, const Eigen::VectorXd& shape, double omega) {
+  const std::complex<double> i_omega(0.0, omega);
+  const Eigen::VectorXd& k = system.internal_stiffness;
+  const Eigen::MatrixXd& k_by = by.joints.stiffness_by;
+  const Eigen::MatrixXd G_by = k.cwiseInverse().asDiagonal() * (k_by - by.joints.rate_by);
+  const Eigen::VectorXd t_by = by.D.transpose() * shape + G_by * strain;
+  const Eigen::VectorXcd Rt = strain.array() / (k.array() + i_omega);
+  const std::complex<double> changed = 2.0 * t_by.cast<std::complex<double>>().cwiseProduct(Rt).sum() -
+                                       Rt.cwiseProduct(i_omega * (G_by * Rt) + k_by * Rt).sum();
+  return 2.0 * strain.dot(t_by) - strain.dot(G_by * strain) + omega * changed.imag();
 }
 
 }  // namespace
@@ -71,7 +88,8 @@ void modes_derivative(const mechanics::LinearSystem& system, const mechanics::Li
     const Eigen::VectorXd strain = system.D.transpose() * phi, strain_by = system.D.transpose() * phi_by;
     const double loss_by = 2.0 * phi.dot(system.C * phi_by) + phi.dot(by.C * phi) +
                            2.0 * strain.dot((dampers * strain_by.array()).matrix()) +
-                           strain.dot((dampers_by * strain.array()).matrix());
+                           strain.dot((dampers_by * strain.array()).matrix()) +
+                           (system.joints.any() ? loss_of_joints_by(system, by, strain, phi, omega) : 0.0);
     const double ratio = damping_ratio(system, phi, omega);
     frequency.push_back(simple ? omega_by : kNone);
     damping.push_back(simple ? loss_by / (2.0 * omega) - ratio * omega_by / omega : kNone);

@@ -17,11 +17,11 @@
 // numbers at every point and the topology never.
 namespace frahm::mechanics {
 
-enum class NodeKind { ground, mass, prescribed };
+enum class NodeKind { ground, mass, prescribed, joint };
 
 struct Node {
   NodeKind kind = NodeKind::ground;
-  std::size_t index = 0;  // in Network::masses or Network::prescribed; 0 for ground
+  std::size_t index = 0;  // in Network::masses, prescribed or joints; 0 for ground
 
   friend bool operator==(const Node&, const Node&) = default;
 };
@@ -112,7 +112,8 @@ inline bool is_recorded(ExcitationKind kind) {
 // One component of the excitation; order 0 is a constant. Components on one node add up.
 struct Excitation {
   ExcitationKind kind = ExcitationKind::force;
-  std::size_t node = 0;  // index into Network::masses (force) or Network::prescribed (motion, crank)
+  // index into Network::masses and, after them, joints (force) or into Network::prescribed (motion, crank)
+  std::size_t node = 0;
   int order = 1;         // of a crank: 1; of a belt or a record: 0
   int even_orders = 0;   // of a crank: how many of its orders 2, 4, 6 ... are included
   int taylor_order = 0;  // of a crank: 1, 2 or 4 cuts its Taylor series in crank/rod there; 0: exact
@@ -149,7 +150,31 @@ struct Network {
   std::vector<Signal> signals{};
   DampingModel damping = DampingModel::none;
   std::vector<MatrixPart> matrices{};
+  // Names of moving nodes without mass or inerter, where springs and dampers meet (joints.hpp); whether each
+  // one's displacement is an angle, which may be empty where none is.
+  std::vector<std::string> joints{};
+  std::vector<bool> joint_rotation{};
 };
+
+inline std::string node_name(const Network& network, const Node& node) {
+  switch (node.kind) {
+    case NodeKind::mass:
+      return network.masses[node.index];
+    case NodeKind::prescribed:
+      return network.prescribed[node.index];
+    case NodeKind::joint:
+      return network.joints[node.index];
+    case NodeKind::ground:
+      break;
+  }
+  return "ground";
+}
+
+// The name of the node that a force acts on (Excitation::node).
+inline const std::string& forced_node(const Network& network, std::size_t node) {
+  const std::size_t masses = network.masses.size();
+  return node < masses ? network.masses[node] : network.joints[node - masses];
+}
 
 // Whether a prescribed node moves on for ever.
 inline bool has_belt(const Network& network) {

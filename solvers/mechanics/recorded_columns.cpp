@@ -18,10 +18,19 @@ std::vector<Eigen::Index> first_columns(const Network& network, Eigen::Index& co
 
 void resize(const Network& network, Eigen::Index columns, LinearSystem& system) {
   const auto n = static_cast<Eigen::Index>(network.masses.size());
+  const auto joints = static_cast<Eigen::Index>(network.joints.size());
   const auto p = static_cast<Eigen::Index>(network.prescribed.size());
   system.recorded_force.setZero(n, columns);
   system.recorded_applied_force.setZero(n, columns);
   system.recorded_motion.setZero(p, columns);
+  system.joints.recorded_load.setZero(joints, columns);
+}
+
+// Where a recorded force acts: on a mass, or on a joint.
+double& recorded_load(const Network& network, Eigen::Index node, Eigen::Index column, LinearSystem& system) {
+  const auto n = static_cast<Eigen::Index>(network.masses.size());
+  return node < n ? system.recorded_applied_force(node, column)
+                  : system.joints.recorded_load(node - n, column);
 }
 
 // A cos(phase), what multiplies a record.
@@ -53,7 +62,7 @@ void set_recorded(const Network& network, const NetworkValues& values, LinearSys
     const auto node = static_cast<Eigen::Index>(network.excitations[k].node);
     const double a = factor(values.excitation[k]);
     if (network.excitations[k].kind == ExcitationKind::recorded_force) {
-      system.recorded_applied_force(node, first[k]) += a;
+      recorded_load(network, node, first[k], system) += a;
       continue;
     }
     system.recorded_motion(node, first[k]) += a;
@@ -74,7 +83,7 @@ void differentiate_recorded(const Network& network, const NetworkValues& values,
     const double a = factor(values.excitation[k]);
     const double by = factor_derivative(values.excitation[k], direction.excitation[k]);
     if (network.excitations[k].kind == ExcitationKind::recorded_force) {
-      d.recorded_applied_force(node, first[k]) += by;
+      recorded_load(network, node, first[k], d) += by;
       continue;
     }
     d.recorded_motion(node, first[k]) += by;

@@ -16,8 +16,18 @@ bool stands_on_ground(const Element& element) {
 
 }  // namespace
 
+bool joint_rotates(const Network& network, std::size_t joint) {
+  return joint < network.joint_rotation.size() && network.joint_rotation[joint];
+}
+
 bool rotates(const Network& network, std::size_t mass) {
+  if (mass >= network.masses.size()) return joint_rotates(network, mass - network.masses.size());
   return mass < network.rotation.size() && network.rotation[mass];
+}
+
+bool turns(const Network& network, const Node& node) {
+  return (node.kind == NodeKind::mass && rotates(network, node.index)) ||
+         (node.kind == NodeKind::joint && joint_rotates(network, node.index));
 }
 
 bool ground_takes_torque(const Network& network) {

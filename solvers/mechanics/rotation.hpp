@@ -7,7 +7,10 @@
 // What turns in a network, and what follows from it for units and for sums of forces: a torque is no force.
 namespace frahm::mechanics {
 
+// Of a mass, or, after them, of a joint.
 bool rotates(const Network& network, std::size_t mass);
+bool turns(const Network& network, const Node& node);  // of a mass or joint
+bool joint_rotates(const Network& network, std::size_t joint);
 
 // Whether what the elements exert on the ground is a torque: where none pushes it, and some twist it.
 bool ground_takes_torque(const Network& network);

@@ -7,6 +7,7 @@
 #include "solvers/algebra/solve.hpp"
 #include "solvers/algebra/symmetric_modes.hpp"
 #include "solvers/mechanics/free_directions.hpp"
+#include "solvers/mechanics/joints.hpp"
 #include "solvers/mechanics/rotation.hpp"
 
 namespace frahm::mechanics {
@@ -21,14 +22,30 @@ double ratio_of(const std::vector<double>& ratios, Index mode) {
 }
 
 // K_ends: how the masses hang on the ground and on the prescribed nodes, n x (1 + p).
-MatrixXd stiffness_to_ends(const Assembly& assembly, const LinearSystem& system) {
-  MatrixXd K(system.K.rows(), 1 + system.K_support.cols());
-  K << Eigen::VectorXd::Zero(K.rows()), system.K_support;
+// system: whose joints follow the masses; of: of the springs, or their derivative.
+MatrixXd stiffness_to_ends(const Assembly& assembly, const LinearSystem& system, const LinearSystem& of) {
+  MatrixXd K(of.K.rows(), 1 + of.K_support.cols());
+  K << Eigen::VectorXd::Zero(K.rows()), of.K_support;
   const auto& elements = assembly.network().elements;
   const bool takes_torque = ground_takes_torque(assembly.network());
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const double at_ground = share_in_force(elements[e], Node{}, takes_torque);
-    K.col(0) += system.coefficients[e].stiffness * at_ground * assembly.incidences()[e].w;
+    if (at_ground != 0.0)
+      K.col(0) += of.coefficients[e].stiffness * at_ground * at_rest(system, assembly.incidences()[e]);
+  }
+  return K;
+}
+
+// d(k (w + B^T j)) = dk (w + B^T j) + k dB^T j
+MatrixXd stiffness_to_ends_derivative(const Assembly& assembly, const LinearSystem& system,
+                                      const LinearSystem& by) {
+  MatrixXd K = stiffness_to_ends(assembly, system, by);
+  const auto& elements = assembly.network().elements;
+  const bool takes_torque = ground_takes_torque(assembly.network());
+  for (std::size_t e = 0; e < elements.size() && system.joints.any(); ++e) {
+    const double at_ground = share_in_force(elements[e], Node{}, takes_torque);
+    K.col(0) +=
+        system.coefficients[e].stiffness * at_ground * (by.joints.B.transpose() * assembly.incidences()[e].j);
   }
   return K;
 }
@@ -151,7 +168,7 @@ void set_structural_damping(const Assembly& assembly, const std::vector<double>&
   if (network.damping != DampingModel::none) {
     const MatrixXd& R = system.free_directions;
     const MatrixXd K = R.cols() > 0 ? held_stiffness(system) : system.K;
-    MatrixXd B = algebra::solve_positive(K, stiffness_to_ends(assembly, system));
+    MatrixXd B = algebra::solve_positive(K, stiffness_to_ends(assembly, system, system));
     if (R.cols() > 0) B -= R * (R.transpose() * system.M * B);  // supports do not push along R
     const MatrixXd T = relative_motion(B);
     system.structural_damping = T.transpose() * damping_of(network, values, system) * T;
@@ -168,9 +185,9 @@ void differentiate_structural_damping(const Assembly& assembly, const NetworkVal
   const Network& network = assembly.network();
   derivative.structural_damping.setZero(system.structural_damping.rows(), system.structural_damping.cols());
   if (network.damping == DampingModel::none) return;
-  const MatrixXd B = algebra::solve_positive(system.K, stiffness_to_ends(assembly, system));
-  const MatrixXd B_by =
-      algebra::solve_positive(system.K, MatrixXd(stiffness_to_ends(assembly, derivative) - derivative.K * B));
+  const MatrixXd B = algebra::solve_positive(system.K, stiffness_to_ends(assembly, system, system));
+  const MatrixXd B_by = algebra::solve_positive(
+      system.K, MatrixXd(stiffness_to_ends_derivative(assembly, system, derivative) - derivative.K * B));
   const MatrixXd T = relative_motion(B);
   MatrixXd T_by = MatrixXd::Zero(T.rows(), T.cols());
   T_by.rightCols(B.cols()) = B_by;

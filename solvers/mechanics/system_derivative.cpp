@@ -9,6 +9,7 @@
 
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/joints.hpp"
 #include "solvers/mechanics/recorded_columns.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 void resize(const LinearSystem& system, const NetworkValues& direction, LinearSystem& d) {
   const Eigen::Index n = system.masses(), p = system.W_support.rows();
+  const Eigen::Index forced = n + system.joints.B.rows();
   d.omega = direction.omega;
   d.orders = system.orders;
   d.reference_order = system.reference_order;
@@ -33,10 +35,10 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.internal_stiffness.setZero(system.internal_forces());
   d.internal_rate.setZero(system.internal_forces());
   d.coefficients.resize(system.coefficients.size());
-  d.constant_force.setZero(n);
+  d.constant_force.setZero(forced);
   d.constant_motion.setZero(p);
   d.belt_velocity.setZero(p);
-  d.force.setZero(n, system.force.cols());
+  d.force.setZero(forced, system.force.cols());
   d.motion.setZero(p, system.motion.cols());
   d.M = d.mass;
   d.support_force = system.support_force;
@@ -72,8 +74,10 @@ void differentiate_elements(const Assembly& assembly, const NetworkValues& value
                          .static_friction = at_rest,
                          .internal = internal,
                          .internal_damping = added.internal_damping.derivative};
-    add(d.K, d.K_support, at, added.stiffness.derivative);
-    add(d.C, d.C_support, at, added.damping.derivative);
+    if (!at.has_joint()) {
+      add(d.K, d.K_support, at, added.stiffness.derivative);
+      add(d.C, d.C_support, at, added.damping.derivative);
+    }
     add(d.M, d.M_support, at, added.inertance.derivative);
     if (const double excess = d.support_force.excess[static_cast<Eigen::Index>(e)]; excess != 0.0) {
       d.felt_inertia += excess * added.inertance.derivative * at.w.transpose();
@@ -195,6 +199,7 @@ void differentiate_matrices(const Assembly& assembly, const NetworkValues& value
   resize(system, direction, derivative);
   differentiate_elements(assembly, values, direction, system, derivative);
   differentiate_bends(assembly.network(), direction, derivative.bends);
+  if (system.joints.any()) differentiate_joints(assembly, system, derivative);
   differentiate_structural_damping(assembly, values, direction, system, derivative);
 }
 
@@ -204,10 +209,12 @@ void differentiate(const Assembly& assembly, const NetworkValues& values, const 
   // A system over m periods has an m-th of the frequency.
   derivative.omega *= system.omega / values.omega;
   differentiate_excitation(assembly, values, direction, derivative);
+  if (system.joints.any()) part_loads_of_joints(system.masses(), derivative);
   derivative.constant_applied_force = derivative.constant_force;
   derivative.applied_force = derivative.force;
   if (system.motion.rows() > 0) differentiate_support_forces(system, derivative);
   differentiate_recorded(assembly.network(), values, direction, system, derivative);
+  if (system.joints.any()) differentiate_loads_of_joints(system, derivative);
 }
 
 }  // namespace frahm::mechanics

@@ -16,7 +16,7 @@ bool NonstopSolver::asks(Measure measure) const {
 
 bool NonstopSolver::serves(const mechanics::Assembly& assembly) {
   return assembly.contacts() <= kMostReversals && assembly.bends().count() == 0 &&
-         !mechanics::has_belt(assembly.network()) &&
+         !mechanics::has_belt(assembly.network()) && assembly.network().joints.empty() &&
          std::ranges::all_of(assembly.network().elements, [](const mechanics::Element& element) {
            return !mechanics::has_contact(element) || mechanics::kind_of(element).law == &laws::coulomb;
          });

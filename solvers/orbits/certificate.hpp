@@ -77,12 +77,21 @@ double static_forces(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
 // The largest displacement of a node by a state of energy norm 1 [m / sqrt(J)]:
 //   max_n sqrt(2 (K^-1)_nn),   or   max_n sqrt(2 (K^+)_nn) + (T/2) sqrt(2 (R R^T)_nn)
 // with free directions R, R^T M R = 1, along which velocities of up to sqrt(2 E) have a period T to part from
-// a mean of zero, and K^+ without them.
+// a mean of zero, and K^+ without them. Of joints x = B q + X s it is that of (B K^-1 B^T + X diag(k)
+// X^T)_nn.
 template <int N, int H>
 double displacement_of_energy(const StepEquations<N, H>& eq, const Closing& closing) {
-  if (!closing.is_modulo()) return std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff());
-  const Eigen::VectorXd free = closing.directions().rowwise().squaredNorm();
-  const Eigen::VectorXd held = eq.K_inverse.diagonal() - eq.step * eq.step * free;
+  if (!closing.is_modulo() && !eq.joints.any()) return std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff());
+  const Eigen::Index n = eq.masses(), joints = eq.joints.B.rows();
+  Eigen::MatrixXd places(n + joints, n);  // of masses and joints, by the masses
+  places << Eigen::MatrixXd::Identity(n, n), eq.joints.B;
+  Eigen::VectorXd held = (places * eq.K_inverse * places.transpose()).diagonal();
+  if (eq.joints.any())
+    held.tail(joints) +=
+        (eq.joints.X * eq.internal_stiffness.asDiagonal() * eq.joints.X.transpose()).diagonal();
+  if (!closing.is_modulo()) return std::sqrt(2.0 * held.maxCoeff());
+  const Eigen::VectorXd free = (places * closing.directions()).rowwise().squaredNorm();
+  held -= eq.step * eq.step * free;
   const double half_period = 0.5 * eq.period * eq.step;
   return ((2.0 * held.cwiseMax(0.0)).cwiseSqrt() + half_period * (2.0 * free).cwiseSqrt()).maxCoeff();
 }

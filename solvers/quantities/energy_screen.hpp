@@ -187,6 +187,13 @@ void EnergyScreen<N, H>::list_inputs() {
     const std::size_t place = place_of(force);
     inputs_.push_back({1.0, place, place_of(velocity)});
   }
+  for (Eigen::Index j = 0; j < eq.joints.load.rows(); ++j) {
+    if (eq.joints.load.row(j).isZero(0.0)) continue;
+    Form force = forms_.zero();
+    force.u = eq.joints.load.row(j).transpose();
+    const std::size_t place = place_of(force);
+    inputs_.push_back({1.0, place, place_of(forms_.velocity_of_joint(j))});
+  }
   driving_ = inputs_.size();
   for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
     Form velocity = forms_.zero();

@@ -26,7 +26,7 @@ class Gradient {
         flow_(flow),
         forms_(assembly, flow),
         request_(derivatives_of(quantities, assembly)),
-        signals_(mechanics::signal_incidences(assembly.network())),
+        signals_(mechanics::incidences_beyond_masses(assembly.network())),
         why_none_(quantities.size(), ""),
         steps_(flow),
         sensitivity_(flow),
@@ -51,6 +51,7 @@ class Gradient {
   void differentiate_trace(std::size_t trace);
   CandidateDerivative of_candidate(std::size_t trace, std::size_t candidate);
   void look_at(const Instant<N, H>& x, const InstantDerivative<N, H>& d);
+  void look_at_joints(const Instant<N, H>& x, const InstantDerivative<N, H>& d);
   void look_at_forces(const Instant<N, H>& x, const InstantDerivative<N, H>& d, std::size_t mode);
 
   const mechanics::Assembly& assembly_;

@@ -141,6 +141,9 @@ void Gradient<N, H>::integrate() {
   measured_by_.motion_velocity = by_.motion_velocity;
   measured_by_.motion_velocity /= eq.step;
   measured_by_.motion_velocity -= by_.log_step * measured_.motion_velocity;
+  if constexpr (S::kInternal != 0) {
+    if (flow_.equations().joints.any()) measured_by_.joints = joint_rows_derivative(flow_.equations(), by_);
+  }
 }
 
 // Distance slid: the sum of sigma (u(end) - u(start)) over the steps in which the contact slides. A shift of
@@ -227,8 +230,8 @@ CandidateDerivative Gradient<N, H>::of_candidate(std::size_t trace, std::size_t 
   } else if (what.kind == TraceKind::displacement) {
     const double rate = flow_.fundamental_rate() / flow_.equations().step;  // [rad/s]
     const double carried = carried_by_.size() > 0 ? what.at.w.dot(carried_by_) : 0.0;
-    result.angle = -rate * (what.at.w.dot(motion_.by.v) - carried + what.at.p.dot(motion_.by.y_velocity)) /
-                   (what.at.w.dot(motion_.at.a) + what.at.p.dot(motion_.at.y_acceleration));
+    result.angle =
+        -rate * (velocity_derivative(what.at, motion_) - carried) / acceleration_of(what.at, motion_);
   }
   return result;
 }
@@ -255,6 +258,44 @@ void Gradient<N, H>::look_at(const Instant<N, H>& x, const InstantDerivative<N, 
   at.y_acceleration.noalias() = eq.motion_acceleration * (x.u / h2);
   by.y_acceleration.noalias() = by_.motion_acceleration * (x.u / h2);
   by.y_acceleration -= 2.0 * log_step * at.y_acceleration;
+  if constexpr (S::kInternal != 0) {
+    if (eq.joints.any()) look_at_joints(x, d);
+  }
+}
+
+// x = B q + X s + offset u, with s' and s'' from  s' = k D^T v - rate s + drive u,  each product by its rule.
+template <int N, int H>
+void Gradient<N, H>::look_at_joints(const Instant<N, H>& x, const InstantDerivative<N, H>& d) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::Index n = eq.masses(), internal = eq.internal_forces();
+  const double h = eq.step, h2 = h * h, log_step = by_.log_step;
+  const StepJoints &its = eq.joints, &changed = by_.joints;
+  Kinematics &at = motion_.at, &by = motion_.by;
+  const auto rates = [&](const Eigen::VectorXd& v, const Eigen::VectorXd& s) {
+    return Eigen::VectorXd(eq.internal_stiffness.cwiseProduct(eq.D.transpose() * v) -
+                           eq.internal_rate.cwiseProduct(s));
+  };
+  const auto sum = [&](const StepJoints& rows, const Eigen::VectorXd& q, const Eigen::VectorXd& s) {
+    return Eigen::VectorXd(rows.B * q + rows.X * s);
+  };
+  const Eigen::VectorXd q = x.z.head(n), v = x.z.segment(n, n), s = x.z.tail(internal);
+  const Eigen::VectorXd q_by = d.z.head(n), v_by = d.z.segment(n, n), s_by = d.z.tail(internal);
+  // The derivative of s' is that of its formula, at z' = (v, a, s') that of s''.
+  const Eigen::VectorXd s1 = rates(v, s) + eq.internal_drive * x.u;
+  const Eigen::VectorXd s2 = rates(x.a, s1) + its.drive_rate * x.u;
+  Eigen::VectorXd z1(eq.states());
+  z1 << v, x.a, s1;
+  const Eigen::VectorXd s1_by = rates(v_by, s_by) + by_.internal_by_state * x.z + by_.internal_drive * x.u;
+  const Eigen::VectorXd s2_by = rates(d.a, s1_by) + by_.internal_by_state * z1 + changed.drive_rate * x.u;
+  at.x = sum(its, q, s) + its.offset * x.u;
+  by.x = sum(its, q_by, s_by) + sum(changed, q, s) + changed.offset * x.u;
+  at.x_velocity = (sum(its, v, s1) + its.offset_velocity * x.u) / h;
+  by.x_velocity = (sum(its, v_by, s1_by) + sum(changed, v, s1) + changed.offset_velocity * x.u) / h -
+                  log_step * at.x_velocity;
+  at.x_acceleration = (sum(its, x.a, s2) + its.offset_acceleration * x.u) / h2;
+  by.x_acceleration =
+      (sum(its, d.a, s2_by) + sum(changed, x.a, s2) + changed.offset_acceleration * x.u) / h2 -
+      2.0 * log_step * at.x_acceleration;
 }
 
 template <int N, int H>

@@ -17,16 +17,25 @@ ValueAndDerivative relative(const mechanics::Incidence& at, const Eigen::VectorX
   return {at.w.dot(q) + at.p.dot(y), at.w.dot(q_by) + at.p.dot(y_by)};
 }
 
+// + j^T x
+ValueAndDerivative with_joints(ValueAndDerivative sum, const mechanics::Incidence& at,
+                               const Eigen::VectorXd& x, const Eigen::VectorXd& x_by) {
+  if (!at.has_joint()) return sum;
+  return {sum.value + at.j.dot(x), sum.by + at.j.dot(x_by)};
+}
+
 ValueAndDerivative displacement(const mechanics::Incidence& at, const InstantMotion& m) {
-  return relative(at, m.at.q, m.by.q, m.at.y, m.by.y);
+  return with_joints(relative(at, m.at.q, m.by.q, m.at.y, m.by.y), at, m.at.x, m.by.x);
 }
 
 ValueAndDerivative velocity(const mechanics::Incidence& at, const InstantMotion& m) {
-  return relative(at, m.at.v, m.by.v, m.at.y_velocity, m.by.y_velocity);
+  return with_joints(relative(at, m.at.v, m.by.v, m.at.y_velocity, m.by.y_velocity), at, m.at.x_velocity,
+                     m.by.x_velocity);
 }
 
 ValueAndDerivative acceleration(const mechanics::Incidence& at, const InstantMotion& m) {
-  return relative(at, m.at.a, m.by.a, m.at.y_acceleration, m.by.y_acceleration);
+  return with_joints(relative(at, m.at.a, m.by.a, m.at.y_acceleration, m.by.y_acceleration), at,
+                     m.at.x_acceleration, m.by.x_acceleration);
 }
 
 // The force of elements, each product by the product rule.
@@ -95,6 +104,14 @@ class Forces {
 };
 
 }  // namespace
+
+double velocity_derivative(const mechanics::Incidence& at, const InstantMotion& motion) {
+  return velocity(at, motion).by;
+}
+
+double acceleration_of(const mechanics::Incidence& at, const InstantMotion& motion) {
+  return acceleration(at, motion).value;
+}
 
 double trace_derivative(const Trace& trace, const InstantMotion& motion, const mechanics::Assembly& assembly,
                         const mechanics::LinearSystem& system, const mechanics::LinearSystem& system_by) {

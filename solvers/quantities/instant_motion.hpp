@@ -9,9 +9,10 @@
 // The derivative of a trace at one instant of a motion.
 namespace frahm::periodic {
 
-// Displacements, velocities, accelerations [SI] of the masses and of the prescribed nodes.
+// Displacements, velocities, accelerations [SI] of the masses, of the prescribed nodes, and of the joints.
 struct Kinematics {
   Eigen::VectorXd q, v, a;
+  Eigen::VectorXd x, x_velocity, x_acceleration;
   Eigen::VectorXd y, y_velocity, y_acceleration;
 };
 
@@ -30,6 +31,10 @@ struct InstantMotion {
   std::vector<ContactForce> contacts;
   std::vector<double> bends_by;
 };
+
+// Along an incidence: the derivative of its velocity [m/s], and its acceleration [m/s^2].
+double velocity_derivative(const mechanics::Incidence& at, const InstantMotion& motion);
+double acceleration_of(const mechanics::Incidence& at, const InstantMotion& motion);
 
 // system_by: the derivative of `system`.
 double trace_derivative(const Trace& trace, const InstantMotion& motion, const mechanics::Assembly& assembly,

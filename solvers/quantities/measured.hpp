@@ -14,6 +14,12 @@
 // quantities follow from them (quantity_values.hpp, quantity_derivatives.hpp).
 namespace frahm::periodic {
 
+// How joints follow y: rows over it of their displacements [m] and velocities [m/s]; none where there are no
+// joints.
+struct JointRows {
+  Eigen::MatrixXd displacement, velocity;
+};
+
 // A requested quantity, and the index of its trace among those measured.
 struct Asked {
   Quantity quantity;
@@ -38,6 +44,7 @@ struct Measured {
   // with the oscillators and its square alone.
   Eigen::MatrixXd gram;
   Eigen::MatrixXd motion, motion_velocity;  // of the prescribed nodes, rows on u [m], [m/s]
+  JointRows joints;
 
   // What a period of the excitation adds to the displacements of free masses [m]; empty where none is free.
   Eigen::VectorXd drift;
@@ -70,7 +77,7 @@ struct Measured {
   Eigen::Index signals() const {
     return oscillators() + 1 + 2 * static_cast<Eigen::Index>(system->orders.size());
   }
-  // The row of a mass or a signal in the Gram matrix.
+  // The row of a mass, or of a joint or signal, in the Gram matrix.
   Eigen::Index row_of(const Asked& asked) const {
     const auto coordinate = static_cast<Eigen::Index>(asked.quantity.index);
     return coordinate < masses() ? coordinate : signals() + coordinate - masses();
@@ -102,6 +109,7 @@ struct MeasuredDerivative {
   std::vector<std::vector<CandidateDerivative>> candidates;  // of each trace
   Eigen::VectorXd drift;
   Eigen::MatrixXd gram, motion, motion_velocity;
+  JointRows joints;
   std::vector<ContactDerivative> contacts;
   std::vector<double> bend_loss, loss;
   double structural_loss = 0.0, dissipated = 0.0;

@@ -5,6 +5,7 @@
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/quantities/bend_losses.hpp"
 #include "solvers/quantities/integrals.hpp"
+#include "solvers/quantities/joint_products.hpp"
 #include "solvers/quantities/quantity_table.hpp"
 #include "solvers/quantities/quantity_values.hpp"
 
@@ -21,7 +22,7 @@ class OrbitMeasurement {
       : assembly_(assembly),
         flow_(flow),
         forms_(assembly, flow),
-        signals_(mechanics::signal_incidences(assembly.network())) {}
+        signals_(mechanics::incidences_beyond_masses(assembly.network())) {}
 
   // steps: of the orbit, laid out.
   void measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, OrbitSteps<N, H>& steps,
@@ -96,6 +97,7 @@ void OrbitMeasurement<N, H>::integrate(const Orbit<N, H>& orbit, OrbitSteps<N, H
   measured.motion = eq.motion;
   measured.motion_velocity = eq.motion_velocity;
   measured.motion_velocity /= eq.step;
+  measured.joints = eq.joints.any() ? joint_rows(eq) : JointRows{};
 }
 
 // The inputs of energy: outside forces on masses, and the force that drives each prescribed node.
@@ -108,6 +110,11 @@ void OrbitMeasurement<N, H>::list_powers(const Mode<N, H>& mode, const mechanics
     powers.push_back({forms_.zero(), forms_.zero()});
     powers.back().force.u = eq.applied_force.row(i).transpose();
     powers.back().velocity.z[eq.masses() + i] = 1.0 / eq.step;
+  }
+  for (Eigen::Index j = 0; j < eq.joints.load.rows(); ++j) {
+    if (eq.joints.load.row(j).isZero(0.0)) continue;
+    powers.push_back({forms_.zero(), forms_.velocity_of_joint(j)});
+    powers.back().force.u = eq.joints.load.row(j).transpose();
   }
   for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
     const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};

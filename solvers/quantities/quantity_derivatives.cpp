@@ -59,6 +59,10 @@ Component component(const Measured& m, D d, const mechanics::Incidence& at) {
     for (Eigen::Index s = 0; s < at.p.size(); ++s) {
       if (at.p[s] != 0.0) sum += at.p[s] * d.motion.row(s).dot(column);
     }
+    if (at.has_joint()) {
+      sum += value::joint_integral(at, m.joints, d.gram, first + k) +
+             value::joint_integral(at, d.joints, m.gram, first + k);
+    }
     return 2.0 / m.period * sum;
   };
   X.by = std::complex<double>(changed(cosine), -changed(cosine + 1)) - d.log_period * X.value;
@@ -76,6 +80,12 @@ Derivative harmonic_over(const Measured& m, D d, const Asked& asked, double belo
 // d of the integral of (w^T v + p^T y')^2
 double square_of_velocity(const Measured& m, D d, const mechanics::Incidence& at) {
   const Eigen::Index n = m.masses(), first = m.oscillators();
+  if (at.has_joint()) {
+    const Eigen::VectorXd row = value::velocity_row(m, at, m.motion_velocity, m.joints);
+    Eigen::VectorXd row_by = value::velocity_row(m, at, d.motion_velocity, d.joints);
+    row_by.segment(n, n) -= at.w;  // which does not change
+    return row.dot(d.gram * row) + 2.0 * row_by.dot(m.gram * row);
+  }
   Eigen::VectorXd f = Eigen::VectorXd::Zero(m.gram.rows()), f_by = f;
   f.segment(n, n) = at.w;
   if (at.p.size() > 0) {

@@ -60,11 +60,29 @@ double integral(const mechanics::Incidence& at, const Eigen::MatrixXd& gram, con
   return sum;
 }
 
+double joint_integral(const mechanics::Incidence& at, const JointRows& joints, const Eigen::MatrixXd& gram,
+                      Eigen::Index column) {
+  return at.j.dot(joints.displacement * gram.col(column).head(joints.displacement.cols()));
+}
+
+Eigen::VectorXd velocity_row(const Measured& m, const mechanics::Incidence& at,
+                             const Eigen::MatrixXd& motion_velocity, const JointRows& joints) {
+  const Eigen::Index n = m.masses(), first = m.oscillators();
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(m.gram.rows());
+  f.segment(n, n) = at.w;
+  f.segment(first, motion_velocity.cols()) = motion_velocity.transpose() * at.p;
+  f.head(joints.velocity.cols()) += joints.velocity.transpose() * at.j;
+  return f;
+}
+
 std::complex<double> reference_component(const Measured& m, const mechanics::Incidence& at) {
   if (has_no_reference(m)) return 0.0;
   const Eigen::Index cosine = 1 + 2 * reference_column(*m.system);
-  return {2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine),
-          -2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine + 1)};
+  const auto of = [&](Eigen::Index k) {
+    const double sum = integral(at, m.gram, m.motion, m.oscillators(), k);
+    return at.has_joint() ? sum + joint_integral(at, m.joints, m.gram, m.oscillators() + k) : sum;
+  };
+  return {2.0 / m.period * of(cosine), -2.0 / m.period * of(cosine + 1)};
 }
 
 // Coordinates of different units are compared as sqrt(m_i) x_i: a node may stand still, by symmetry or for
@@ -79,6 +97,10 @@ bool is_rounding(const Measured& m, const Asked& asked, std::complex<double> com
 }
 
 double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {
+  if (at.has_joint()) {
+    const Eigen::VectorXd f = velocity_row(m, at, m.motion_velocity, m.joints);
+    return f.dot(m.gram * f);
+  }
   const Eigen::Index n = m.masses(), first = m.oscillators(), count = m.motion_velocity.cols();
   double sum = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {

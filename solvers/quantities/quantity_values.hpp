@@ -54,6 +54,12 @@ double modal_damping(const Measured&, const Asked&);
 double integral(const mechanics::Incidence& at, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& motion,
                 Eigen::Index oscillators, Eigen::Index k);
 // X_n of w^T q + p^T y = Re X_n e^{i n omega t} + ..., n the reference order [m].
+// What joints add to it, of any column of the Gram matrix.
+double joint_integral(const mechanics::Incidence& at, const JointRows& joints, const Eigen::MatrixXd& gram,
+                      Eigen::Index column);
+// w^T v + p^T y' + j^T x' as a row of the Gram matrix.
+Eigen::VectorXd velocity_row(const Measured& measured, const mechanics::Incidence& at,
+                             const Eigen::MatrixXd& motion_velocity, const JointRows& joints);
 std::complex<double> reference_component(const Measured& measured, const mechanics::Incidence& at);
 // Whether the component of the asked trace is rounding of the motion as a whole: it may be as small as its
 // closure error, and its phase is no one's then.

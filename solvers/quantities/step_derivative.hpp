@@ -21,6 +21,8 @@ struct StepDerivative {
   StepBends<N, H> bends;                              // of their numbers and supports; directions are empty
   Eigen::VectorXd internal_stiffness;                 // dk
   Eigen::MatrixXd internal_by_state, internal_drive;  // of s', by state and by oscillators
+  Eigen::MatrixXd D;                                  // changes by joints alone, otherwise empty
+  StepJoints joints;
 
   // system, by: the equations of `eq` and their derivative, before time was counted in steps.
   void set(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system,
@@ -29,6 +31,8 @@ struct StepDerivative {
  private:
   void set_bends(const StepEquations<N, H>& eq, const mechanics::Bends& of_system,
                  const mechanics::Bends& by);
+  void set_joints(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system,
+                  const mechanics::LinearSystem& by);
 };
 
 // The derivative of the motion in one mode: at state z and oscillators u
@@ -77,7 +81,39 @@ void StepDerivative<N, H>::set(const StepEquations<N, H>& eq, const mechanics::L
     internal_by_state.rightCols(s) = -Eigen::MatrixXd(rate.asDiagonal());
     internal_drive = by.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
     internal_drive += eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * motion_velocity);
+    if (system.joints.any()) set_joints(eq, system, by);
   }
+}
+
+// d(k D^T) = dk D^T + k dD^T with dk a matrix, and so on; the loads P of joints and what they drive.
+template <int N, int H>
+void StepDerivative<N, H>::set_joints(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system,
+                                      const mechanics::LinearSystem& by) {
+  const mechanics::Joints &its = system.joints, &d = by.joints;
+  const Eigen::Index n = eq.masses(), s = eq.internal_forces();
+  const auto k = eq.internal_stiffness.asDiagonal();
+  D = by.D;
+  on_oscillators(d.constant_load, d.load, d.recorded_load, eq.recorded_size, joints.load);
+  Eigen::MatrixXd load_rate(joints.load.rows(), joints.load.cols()), load_rate_by = load_rate;
+  eq.differentiate(eq.joints.load, load_rate);
+  eq.differentiate(joints.load, load_rate_by);
+  internal_by_state.middleCols(n, n) += d.stiffness_by * eq.D.transpose() + k * by.D.transpose();
+  internal_by_state.rightCols(s) -= eq.step * d.rate_by;
+  const Eigen::MatrixXd driven =
+      system.D_support.transpose() * eq.motion_velocity + its.load_drive.transpose() * load_rate;
+  internal_drive += d.stiffness_by * driven + k * (by.D_support.transpose() * eq.motion_velocity) +
+                    k * (d.load_drive.transpose() * load_rate + its.load_drive.transpose() * load_rate_by);
+  joints.B = d.B;
+  joints.X = d.X;
+  const Eigen::MatrixXd of_loads = d.A * eq.joints.load + its.A * joints.load;
+  joints.offset = of_loads + d.B_support * eq.motion + its.B_support * motion;
+  joints.offset_velocity.resizeLike(joints.offset);
+  joints.offset_acceleration.resizeLike(joints.offset);
+  eq.differentiate(of_loads, joints.offset_velocity);
+  joints.offset_velocity += d.B_support * eq.motion_velocity + its.B_support * motion_velocity;
+  eq.differentiate(joints.offset_velocity, joints.offset_acceleration);
+  joints.drive_rate.resizeLike(internal_drive);
+  eq.differentiate(internal_drive, joints.drive_rate);
 }
 
 // d(c/h) = dc/h - (c/h) dh/h; of the place of a velocity d(D h) = h dD + (D h) dh/h
@@ -109,6 +145,9 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   Eigen::Matrix<double, N, S::kState> r_z = decltype(r_z)::Zero(n, eq.states());
   r_z.leftCols(n) = -by.K;
   r_z.middleCols(n, n) = -by.C;
+  if constexpr (S::kInternal != 0) {
+    if (by.D.size() > 0) r_z.rightCols(eq.internal_forces()) = -by.D;
+  }
   r_z.noalias() -= by.M * c.pull_by_state(eq);
   typename S::VectorByOscillators r_u = by.force;
   r_u.noalias() -= by.M * c.Au;

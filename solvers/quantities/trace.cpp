@@ -8,8 +8,8 @@ bool operator==(const Trace& a, const Trace& b) {
   const auto same = [](const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
     return x.size() == y.size() && x == y;
   };
-  return a.kind == b.kind && same(a.at.w, b.at.w) && same(a.at.p, b.at.p) && a.element == b.element &&
-         a.node == b.node;
+  return a.kind == b.kind && same(a.at.w, b.at.w) && same(a.at.p, b.at.p) && same(a.at.j, b.at.j) &&
+         a.element == b.element && a.node == b.node;
 }
 
 std::size_t place_of(Trace trace, std::vector<Trace>& traces) {

@@ -13,6 +13,9 @@ namespace frahm::smooth {
 
 Equation::Equation(const mechanics::Assembly& assembly) : assembly_(assembly), orders_(assembly.orders()) {
   const auto& network = assembly.network();
+  if (!network.joints.empty())
+    throw mechanics::MechanicsError("joint '" + network.joints.front() +
+                                    "': smooth laws take a mass at every node");
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     if (mechanics::has_smooth_law(network.elements[e])) elements_.push_back(e);
   }

@@ -14,7 +14,7 @@ Observables::Observables(const mechanics::Assembly& assembly, Equation& equation
       equation_(equation),
       forms_(assembly, equation),
       request_(periodic::values_of(quantities, assembly)),
-      signals_(mechanics::signal_incidences(assembly.network())) {}
+      signals_(mechanics::incidences_beyond_masses(assembly.network())) {}
 
 void Observables::set_system(const mechanics::LinearSystem& system) {
   if (request_.needs.modes) periodic::modes_of(system, measured_.natural_frequency, measured_.modal_damping);

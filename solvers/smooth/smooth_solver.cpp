@@ -307,7 +307,7 @@ History SmoothSolver::history(std::span<const double> phases, periodic::SliderFo
     element_forces.push_back(forms.element_force(e, system_.coefficients[e]));
   }
   std::vector<Form> of_signals;
-  for (const mechanics::Incidence& at : mechanics::signal_incidences(network))
+  for (const mechanics::Incidence& at : mechanics::incidences_beyond_masses(network))
     of_signals.insert(of_signals.end(), {forms.displacement(at), forms.velocity(at), forms.acceleration(at)});
   Instant instant;
   Eigen::VectorXd z;

@@ -110,6 +110,9 @@ DisplacementSensitivity displacement_sensitivity(const Network& network, const N
                                                  std::size_t coordinate, std::span<const double> times,
                                                  const Watch& watch) {
   const mechanics::Incidence at = mechanics::coordinate_incidence(network, coordinate);
+  if (at.has_joint())
+    throw mechanics::MechanicsError(
+        "the displacement of a joint without mass has no derivative under records");
   check(network, along);
   const RecordCourse course(network, records, times.back());
   const std::vector<periodic::Observed> observed = observed_of(at);

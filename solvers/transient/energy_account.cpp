@@ -256,6 +256,13 @@ void EnergyAccount::add_drives(const Mode& mode, Account& account) const {
     account.add(force);
     account.add(forms_.velocity(mass_incidences_[static_cast<std::size_t>(i)]));
   }
+  for (Index j = 0; j < eq.joints.load.rows(); ++j) {
+    if (eq.joints.load.row(j).isZero(0.0)) continue;
+    Form force = forms_.zero();
+    force.u = eq.joints.load.row(j).transpose();
+    account.add(force);
+    account.add(forms_.velocity_of_joint(j));
+  }
   for (Index s = 0; s < eq.motion.rows(); ++s) {
     const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
     account.add(forms_.node_force(node, system_, mode));

@@ -10,6 +10,7 @@
 #include "solvers/algebra/symmetric_modes.hpp"
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/free_directions.hpp"
+#include "solvers/mechanics/joints.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/transient/trajectory.hpp"
@@ -242,7 +243,7 @@ void tell_masses(const mechanics::Network& network, const mechanics::LinearSyste
     for (const Extremum& extremum : trajectory.turning_points(i).extrema()) {
       if (extremum.time <= decay.duration * (1.0 + 1e-12)) mass.extrema.push_back(extremum);
     }
-    const Eigen::VectorXd w = mechanics::coordinate_incidence(network, i).w;
+    const Eigen::VectorXd w = mechanics::at_rest(system, mechanics::coordinate_incidence(network, i));
     mass.log_decrement =
         is_free(system, w) ? std::vector<double>(mass.extrema.size(), kNone) : log_decrements(mass.extrema);
     mass.drift = tends_somewhere ? w.dot(velocity) : kNone;

@@ -54,13 +54,13 @@ double integral_of_square(const Polynomial& p, double length) {
 
 std::size_t LargestValues::add(TraceKind kind, const mechanics::Incidence& at, bool mean_square) {
   const auto same = std::ranges::find_if(followed_, [&](const Followed& each) {
-    return each.kind == kind && each.at.w == at.w && each.at.p == at.p;
+    return each.kind == kind && each.at.w == at.w && each.at.p == at.p && each.at.j == at.j;
   });
   if (same != followed_.end()) {
     same->has_square = same->has_square || mean_square;
     return static_cast<std::size_t>(same - followed_.begin());
   }
-  Followed followed{.kind = kind, .at = at, .masses = {}, .of_u = {}, .of_du = {}, .of_ddu = {}};
+  Followed followed{.kind = kind, .at = at, .masses = {}, .of_u = {}, .of_du = {}, .of_ddu = {}, .joint = {}};
   followed.has_square = mean_square;
   for (Index i = 0; i < at.w.size(); ++i) {
     if (at.w[i] != 0.0) followed.masses.push_back(i);
@@ -72,7 +72,13 @@ std::size_t LargestValues::add(TraceKind kind, const mechanics::Incidence& at, b
 void LargestValues::set_system(const Flow& flow) {
   const auto& eq = flow.equations();
   for (Followed& each : followed_) {
-    const auto& [w, p] = each.at;
+    if (each.at.has_joint()) {
+      each.joint = {periodic::displacement_row(eq, each.at), periodic::velocity_row(eq, each.at)};
+      each.speed = periodic::largest_rate(eq, each.joint.velocity);
+      each.support_speed = each.joint.velocity.u.cwiseAbs().sum();
+      continue;
+    }
+    const auto& [w, p, j] = each.at;
     each.speed = std::sqrt(2.0 * w.dot(eq.M_inverse * w));
     each.support_speed = 0.0;
     const bool moves = p.size() > 0 && !p.isZero(0.0);
@@ -84,9 +90,21 @@ void LargestValues::set_system(const Flow& flow) {
   }
 }
 
+// Value and slope of the displacement, or of the velocity: the row of its velocities meets (v, a, s').
+ValueAndSlope LargestValues::at_joint(const Followed& followed, const Instant& instant) {
+  const auto& [displacement, velocity] = followed.joint;
+  const double v = velocity.z.dot(instant.z) + velocity.u.dot(instant.u);
+  if (followed.kind == TraceKind::displacement)
+    return {displacement.z.dot(instant.z) + displacement.u.dot(instant.u), v};
+  const Index n = instant.a.size();
+  return {v, velocity.z.segment(n, n).dot(instant.a) + velocity.z.tail(instant.ds.size()).dot(instant.ds) +
+                 velocity.u.dot(instant.du)};
+}
+
 LargestValues::Ends LargestValues::ends_of(const Followed& followed, const Step& step) {
   const Index n = followed.at.w.size();
   const auto at = [&](const Instant& instant) {
+    if (followed.at.has_joint()) return at_joint(followed, instant);
     const auto sum = [&](const auto& values) { return sum_over(followed.masses, followed.at.w, values); };
     const bool moves = followed.of_u.size() > 0;
     const double v = sum(instant.z.segment(n, n)) + (moves ? followed.of_du.dot(instant.u) : 0.0);
@@ -114,6 +132,11 @@ Polynomial LargestValues::polynomial_of(const Followed& followed, const Steps& s
   const bool is_displacement = followed.kind == TraceKind::displacement;
   const Index first = is_displacement ? 0 : followed.at.w.size();
   Polynomial trace = Polynomial::Zero();
+  if (followed.at.has_joint()) {
+    const periodic::StateRow& row = is_displacement ? followed.joint.displacement : followed.joint.velocity;
+    trace = x.z * row.z + x.u * row.u;
+    return followed.kind == TraceKind::acceleration ? periodic::derivative(trace) : trace;
+  }
   for (const Index i : followed.masses) trace += followed.at.w[i] * x.z.col(first + i);
   if (followed.of_u.size() > 0) trace += x.u * (is_displacement ? followed.of_u : followed.of_du);
   return followed.kind == TraceKind::acceleration ? periodic::derivative(trace) : trace;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/events/passage_steps.hpp"
+#include "solvers/flow/joint_rows.hpp"
 #include "solvers/quantities/trace.hpp"
 #include "solvers/transient/motion.hpp"
 
@@ -48,8 +49,11 @@ class LargestValues {
   struct Followed {
     periodic::TraceKind kind = periodic::TraceKind::displacement;
     mechanics::Incidence at;
-    std::vector<Eigen::Index> masses;         // of which it has a share
-    Eigen::VectorXd of_u, of_du, of_ddu;      // displacement, velocity, acceleration of its supports
+    std::vector<Eigen::Index> masses;     // of which it has a share
+    Eigen::VectorXd of_u, of_du, of_ddu;  // displacement, velocity, acceleration of its supports
+    struct {
+      periodic::StateRow displacement, velocity;
+    } joint;                                  // where it has one: the whole rows, in steps
     double speed = 0.0, support_speed = 0.0;  // its velocity's bound for a unit of energy; of its supports
     double reached = -1.0;                    // the size that was first reached at the time of `largest`
     Extremum largest = {};
@@ -61,6 +65,7 @@ class LargestValues {
     periodic::ValueAndSlope left, right;
   };
 
+  static periodic::ValueAndSlope at_joint(const Followed& followed, const Instant& instant);
   static Ends ends_of(const Followed& followed, const Step& step);
   static void consider(double value, double time, Followed& followed);
   static periodic::Polynomial polynomial_of(const Followed& followed, const Steps& steps, Step& step);

@@ -40,7 +40,7 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
       kept_(kept),
       held_since_(kNone),
       forms_(assembly, flow_),
-      signals_(mechanics::signal_incidences(assembly.network())),
+      signals_(mechanics::incidences_beyond_masses(assembly.network())),
       turning_points_(mechanics::coordinate_count(assembly.network())),
       stops_(assembly.contacts()),
       touches_(assembly.bends().law.size()),
@@ -54,17 +54,19 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
 
 void Trajectory::set_system(const mechanics::LinearSystem& system, double phase) {
   const double energy = has_started() ? energy_now() : 0.0;
+  const Eigen::VectorXd joints = joints_now();
   flow_.set_system(system);
   if (system.free_directions.cols() > 0 && kept_.rest) system_ = system;
   ways_.known = false;
-  take_forcing(system, phase, energy);
+  take_forcing(system, phase, energy, joints);
 }
 
 void Trajectory::set_forcing(const mechanics::LinearSystem& system, double phase) {
-  take_forcing(system, phase, has_started() ? energy_now() : 0.0);
+  take_forcing(system, phase, has_started() ? energy_now() : 0.0, joints_now());
 }
 
-void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before) {
+void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before,
+                              const Eigen::VectorXd& joints) {
   const double old_step = flow_.equations().step;
   flow_.set_forcing(system);
   account_.set_system(system);
@@ -75,6 +77,7 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   phase_ = phase;
   if (!has_started()) return;
   carry_over(old_step);
+  if (joints.size() > 0) hold_joints(joints, system.joints.damped);
   account_.put_in(energy_now() - energy_before);
 }
 
@@ -94,6 +97,24 @@ void Trajectory::carry_over(double old_step) {
   const Index n = flow_.equations().masses();
   z_.segment(n, n) *= flow_.equations().step / old_step;
   if (stuck_ != 0) z_ = flow_.brought_to_rest(z_, phase_, stuck_);
+}
+
+Eigen::VectorXd Trajectory::joints_now() const {
+  const auto& joints = flow_.equations().joints;
+  if (!has_started() || !joints.any()) return {};
+  const Index n = flow_.equations().masses();
+  return joints.B * z_.head(n) + joints.X * z_.tail(joints.X.cols()) + joints.offset * oscillators_now();
+}
+
+// Where matrices or loads jump, dampers hold those combinations E^T x of joints that they strain:
+// E^T x = E^T (B q + X s + offset u) is solved for those of s that joints have, the last. The others follow.
+void Trajectory::hold_joints(const Eigen::VectorXd& x, const Eigen::MatrixXd& damped) {
+  const auto& joints = flow_.equations().joints;
+  const Index n = flow_.equations().masses(), d = damped.cols();
+  if (d == 0) return;
+  const Eigen::VectorXd beside = x - joints.B * z_.head(n) - joints.offset * oscillators_now();
+  const Eigen::MatrixXd E_X = damped.transpose() * joints.X.rightCols(d);
+  z_.tail(d) = E_X.partialPivLu().solve(damped.transpose() * beside);
 }
 
 void Trajectory::start(const InitialState& initial) {
@@ -200,9 +221,14 @@ void Trajectory::follow_extrema(Step& step, double at) {
 void Trajectory::follow_signals(const Step& step, double at) {
   const auto& eq = flow_.equations();
   for (std::size_t i = 0; i < signals_.size(); ++i) {
-    const auto& [w, p] = signals_[i];
-    const double of_masses = std::sqrt(2.0 * w.dot(eq.M_inverse * w)) * energy_scale_;
-    const double of_supports = p.cwiseAbs().dot(eq.motion_velocity.cwiseAbs().rowwise().sum());
+    const auto& [w, p, j] = signals_[i];
+    double of_masses = std::sqrt(2.0 * w.dot(eq.M_inverse * w)) * energy_scale_;
+    double of_supports = p.cwiseAbs().dot(eq.motion_velocity.cwiseAbs().rowwise().sum());
+    if (signals_[i].has_joint()) {
+      const periodic::StateRow row = periodic::velocity_row(eq, signals_[i]);
+      of_masses = periodic::largest_rate(eq, row) * energy_scale_;
+      of_supports = row.u.cwiseAbs().sum();
+    }
     turning_points_[static_cast<std::size_t>(eq.masses()) + i].follow(
         {.start = at,
          .step = eq.step,
@@ -223,7 +249,12 @@ double Trajectory::displacement(std::size_t coordinate) const {
   const auto& eq = flow_.equations();
   const Index n = eq.masses(), place = static_cast<Index>(coordinate);
   if (place < n) return z_[place];
-  const auto& [w, p] = signals_[coordinate - static_cast<std::size_t>(n)];
+  const mechanics::Incidence& at = signals_[coordinate - static_cast<std::size_t>(n)];
+  if (at.has_joint()) {
+    const periodic::StateRow row = periodic::displacement_row(eq, at);
+    return row.z.dot(z_) + row.u.dot(oscillators_now());
+  }
+  const auto& [w, p, j] = at;
   return w.dot(z_.head(n)) + p.dot(eq.motion * oscillators_now());
 }
 

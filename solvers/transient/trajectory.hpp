@@ -94,7 +94,10 @@ class Trajectory {
 
   bool has_started() const { return z_.size() > 0; }
   double energy_now() const { return account_.energy_of(z_, phase_); }  // [J]
-  void take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before);
+  void take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before,
+                    const Eigen::VectorXd& joints);
+  Eigen::VectorXd joints_now() const;  // their displacements [m]; none before the start, or of no joint
+  void hold_joints(const Eigen::VectorXd& x, const Eigen::MatrixXd& damped);
   void carry_over(double old_step);
   bool pass(double length, double phase);
   void follow(Step& step);
@@ -107,6 +110,12 @@ class Trajectory {
   void keep_samples(Step& step, double at);
   void keep_state(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u,
                   const std::vector<double>& dissipated);
+  // Of the joints: displacements [m], and their rates a step.
+  struct JointMotion {
+    Eigen::VectorXd x, velocity, acceleration;
+  };
+  JointMotion joint_motion(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u,
+                           double faster, double rising) const;
   void keep_signals(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u);
   Oscillators oscillators_now() const;
   State resting_state(const State& z) const;

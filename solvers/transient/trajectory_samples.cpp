@@ -64,8 +64,10 @@ void Trajectory::keep_signals(const State& z, const Eigen::VectorXd& acceleratio
   const double h = eq.step;
   const double omega = omega_ + alpha_ * (samples_.time[next_sample_] - omega_since_);
   const double faster = omega / forcing_omega_;
+  const JointMotion joints =
+      eq.joints.any() ? joint_motion(z, acceleration, u, faster, alpha_ / forcing_omega_) : JointMotion{};
   for (std::size_t i = 0; i < signals_.size(); ++i) {
-    const auto& [w, p] = signals_[i];
+    const auto& [w, p, j] = signals_[i];
     const std::size_t place = static_cast<std::size_t>(n) + i;
     const double speed = p.dot(eq.motion_velocity * u) / h;  // of the forcing's support
     const double rise = p.dot(eq.motion_acceleration * u) / (h * h);
@@ -73,7 +75,33 @@ void Trajectory::keep_signals(const State& z, const Eigen::VectorXd& acceleratio
     samples_.velocity[place].push_back(w.dot(z.segment(n, n)) / h + faster * speed);
     samples_.acceleration[place].push_back(w.dot(acceleration) / (h * h) + faster * faster * rise +
                                            alpha_ / forcing_omega_ * speed);
+    if (!signals_[i].has_joint()) continue;
+    samples_.displacement[place].back() += j.dot(joints.x);
+    samples_.velocity[place].back() += j.dot(joints.velocity) / h;
+    samples_.acceleration[place].back() += j.dot(joints.acceleration) / (h * h);
   }
+}
+
+// x = B q + X s + offset u,  s' = k D^T v - rate s + drive u,  and their rates; what supports and loads do is
+// `faster` than the forcing, and gets faster as above.
+Trajectory::JointMotion Trajectory::joint_motion(const State& z, const Eigen::VectorXd& a,
+                                                 const Oscillators& u, double faster, double rising) const {
+  const auto& eq = flow_.equations();
+  const auto& its = eq.joints;
+  const Index n = eq.masses();
+  const auto rates = [&](const Eigen::VectorXd& v, const Eigen::VectorXd& s) {
+    return Eigen::VectorXd(eq.internal_stiffness.cwiseProduct(eq.D.transpose() * v) -
+                           eq.internal_rate.cwiseProduct(s));
+  };
+  const auto second = [&](const Eigen::MatrixXd& first_rate, const Eigen::MatrixXd& second_rate) {
+    return Eigen::VectorXd(faster * faster * (second_rate * u) + rising * (first_rate * u));
+  };
+  const Eigen::VectorXd v = z.segment(n, n), s = z.tail(eq.internal_forces());
+  const Eigen::VectorXd s1 = rates(v, s) + faster * (eq.internal_drive * u);
+  const Eigen::VectorXd s2 = rates(a, s1) + second(eq.internal_drive, its.drive_rate);
+  return {its.B * z.head(n) + its.X * s + its.offset * u,
+          its.B * v + its.X * s1 + faster * (its.offset_velocity * u),
+          its.B * a + its.X * s2 + second(its.offset_velocity, its.offset_acceleration)};
 }
 
 void Trajectory::finish() {

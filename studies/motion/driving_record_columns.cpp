@@ -40,7 +40,8 @@ void add_driving_records(const Study& study, MotionColumns& columns) {
     const mechanics::Excitation& component = network.excitations[driven.excitation];
     const transient::Record& record = *driven.record;
     const bool is_force = record.of == RecordOf::force;
-    const std::string& node = (is_force ? network.masses : network.prescribed)[component.node];
+    const std::string& node =
+        is_force ? mechanics::forced_node(network, component.node) : network.prescribed[component.node];
     const auto [word, unit] = recorded(record.of, is_force && mechanics::rotates(network, component.node));
     const std::string what = fmt::format("{}_{}", node, word);
     const int number = ++times_named[what];

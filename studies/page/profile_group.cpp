@@ -22,7 +22,8 @@ bool is_mass(const Node& node, std::size_t mass) {
 // Whether an element joins place n of the profile to the one below, the lowest to ground or to a support.
 bool joins(const Element& element, const Profile& profile, std::size_t n) {
   const auto is_below = [&](const Node& node) {
-    return n == 0 ? node.kind != NodeKind::mass : is_mass(node, profile.masses[n - 1]);
+    return n == 0 ? node.kind != NodeKind::mass && node.kind != NodeKind::joint
+                  : is_mass(node, profile.masses[n - 1]);
   };
   const std::size_t mass = profile.masses[n];
   if (!mechanics::is_between_two_nodes(element.along)) return false;

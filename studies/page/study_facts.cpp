@@ -76,7 +76,8 @@ std::string component_text(const Study& study, std::size_t k, double at_start, d
   const mechanics::Excitation& each = network.excitations[k];
   const bool is_force =
       each.kind == mechanics::ExcitationKind::force || each.kind == mechanics::ExcitationKind::recorded_force;
-  const std::string& node = is_force ? network.masses[each.node] : network.prescribed[each.node];
+  const std::string& node =
+      is_force ? mechanics::forced_node(network, each.node) : network.prescribed[each.node];
   const std::string what =
       fmt::format("{} {} {}", is_force ? "force" : "motion", is_force ? "on" : "of", node);
   if (mechanics::is_recorded(each.kind))

@@ -53,8 +53,9 @@ Driven driven_by(const Study& study, const DrivingRecord& driving, RecordOf of) 
       break;
   }
   const bool turns = mechanics::rotates(study.network, node);
-  return {fmt::format("{} on \"{}\"", turns ? "torque" : "force", study.network.masses[node]),
-          turns ? Quantity::torque : Quantity::force};
+  return {
+      fmt::format("{} on \"{}\"", turns ? "torque" : "force", mechanics::forced_node(study.network, node)),
+      turns ? Quantity::torque : Quantity::force};
 }
 
 std::string interval_text(const Study& study, const RecordFacts& facts) {

@@ -74,7 +74,7 @@ std::size_t tuned_coordinate(const transient::MotionQuantity& quantity, mechanic
   if (quantity.measure != transient::MotionMeasure::stroke) return quantity.index;
   const mechanics::Element& element = network.elements[quantity.index];
   network.signals.push_back({element.name, element.along, element.rotational});
-  return mechanics::coordinate_count(network) - 1;
+  return mechanics::coordinate_count(network) - 1;  // signals are the last
 }
 
 // A dummy single frequency if a variance has no band.

@@ -152,6 +152,18 @@ TEST_CASE("tune_grounded_inerter.toml: an inerter to the ground counts as absorb
   }
 }
 
+// All curves pass through 1 + 2/N, and the optimum has its peak there (Ruzicka and Derby, 1971).
+TEST_CASE("tune_isolator_joint.toml: a damper on a spring isolates best at the known damping") {
+  for (const char* ratio : {"1", "3", "10"}) {
+    INFO("N = " << ratio);
+    const Tuned tuned("tune_isolator_joint", {std::string("N=") + ratio});
+    const double N = std::stod(ratio);
+    CHECK(tuned.of("zeta") == Approx(N * std::sqrt(2.0 * (N + 2.0)) / (4.0 * (N + 1.0))).epsilon(exact));
+    CHECK(tuned.of("objective") == Approx(1.0 + 2.0 / N).epsilon(exact));
+    CHECK(tuned.of("certificate_gap") < certified);
+  }
+}
+
 TEST_CASE("tune_h2_force.toml: least variance under a white-noise force") {
   for (const char* ratio : {"0.01", "0.05", "0.2", "0.5"}) {
     INFO("mu = " << ratio);

@@ -7,11 +7,6 @@ namespace {
 
 using namespace mechanics;
 
-std::string node_name(const Network& network, const Node& node) {
-  if (node.kind == NodeKind::ground) return "ground";
-  return node.kind == NodeKind::mass ? network.masses[node.index] : network.prescribed[node.index];
-}
-
 struct Keys {
   const char* type;
   const char* first;

@@ -27,6 +27,8 @@ ExponentialIntegrator::ExponentialIntegrator(const mechanics::Network& network,
   orders_.assign(orders.begin(), orders.end());
   for (const auto& element : network.elements)
     internal_ += element.type == ElementType::maxwell || element.type == ElementType::jenkins;
+  first_joint_ = 2 * n_ + internal_;
+  internal_ += static_cast<Index>(network.joints.size());
   size_ = 2 * n_ + internal_ + 2 * static_cast<Index>(orders_.size()) + 1;
   stamp(network, values);
   set_step();
@@ -67,6 +69,10 @@ RowVectorXd ExponentialIntegrator::motion(const mechanics::Element& element, int
     if (node.kind == NodeKind::mass && derivative < 2)
       form[derivative * n_ + static_cast<Index>(node.index)] += factor;
     if (node.kind == NodeKind::prescribed) form += factor * harmonic(node.index, derivative);
+    if (node.kind != NodeKind::joint) continue;
+    const auto joint = static_cast<Index>(node.index);
+    if (derivative == 0) form[first_joint_ + joint] += factor;
+    if (derivative == 1) form += factor * joint_rates_.row(joint);
   }
   return form;
 }
@@ -75,6 +81,7 @@ void ExponentialIntegrator::stamp(const mechanics::Network& network, const mecha
   M_ = Eigen::Map<const VectorXd>(values.mass.data(), n_).asDiagonal();
   force_.setZero(n_, size_);
   rates_.setZero(internal_, size_);
+  stamp_joints(network, values);
   const double omega_h = values.hysteretic_omega > 0.0 ? values.hysteretic_omega : omega_;
   Index internal = 0;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
@@ -90,6 +97,7 @@ void ExponentialIntegrator::stamp(const mechanics::Network& network, const mecha
   for (std::size_t k = 0; k < excitations_.size(); ++k) {
     if (excitations_[k].kind != ExcitationKind::force) continue;
     const auto on = static_cast<Index>(excitations_[k].node);
+    if (on >= n_) continue;
     const auto [amplitude, phase, rod] = excitation_values_[k];
     if (excitations_[k].order == 0) {
       force_(on, size_ - 1) += amplitude * std::cos(phase);
@@ -101,6 +109,36 @@ void ExponentialIntegrator::stamp(const mechanics::Network& network, const mecha
     force_(on, place + 1) -= amplitude * std::sin(phase);
   }
   M_inverse_ = M_.inverse();
+}
+
+// Joints without mass, each with a damper: C x' = P - sum of j (k u + c (u' without joints)).
+void ExponentialIntegrator::stamp_joints(const mechanics::Network& network,
+                                         const mechanics::NetworkValues& values) {
+  const auto joints = static_cast<Index>(network.joints.size());
+  joint_rates_.setZero(joints, size_);
+  if (joints == 0) return;
+  MatrixXd C = MatrixXd::Zero(joints, joints), balance = MatrixXd::Zero(joints, size_);
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    const mechanics::Element& element = network.elements[e];
+    VectorXd j = VectorXd::Zero(joints);
+    for (const auto& [node, factor] : element.along)
+      if (node.kind == NodeKind::joint) j[static_cast<Index>(node.index)] += factor;
+    if (element.type == ElementType::spring) balance -= j * values.element[e] * motion(element, 0);
+    if (element.type != ElementType::damper) continue;
+    C += values.element[e] * j * j.transpose();
+    balance -= j * values.element[e] * motion(element, 1);  // joint_rates_ are still zero
+  }
+  for (std::size_t k = 0; k < excitations_.size(); ++k) {
+    const Index joint = static_cast<Index>(excitations_[k].node) - n_;
+    if (excitations_[k].kind != ExcitationKind::force || joint < 0) continue;
+    const auto [amplitude, phase, rod] = excitation_values_[k];
+    const Index place =
+        2 * n_ + internal_ + 2 * (std::ranges::find(orders_, excitations_[k].order) - orders_.begin());
+    balance(joint, place) += amplitude * std::cos(phase);
+    balance(joint, place + 1) -= amplitude * std::sin(phase);
+  }
+  joint_rates_ = C.partialPivLu().solve(balance);
+  rates_.bottomRows(joints) = joint_rates_;
 }
 
 // s' = k u' - (k/c) s of a Maxwell element; of a Jenkins element s' = k u' while its slider sticks.

@@ -22,7 +22,7 @@ class ExponentialIntegrator {
   ExponentialIntegrator(const mechanics::Network& network, const mechanics::NetworkValues& values);
 
   // At phase 0, from displacements [m], velocities [m/s] and internal forces [N] of Maxwell and Jenkins
-  // elements in the order of the elements.
+  // elements in the order of the elements, then the displacements of joints [m].
   void start(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& s = {});
   void pass_period();
 
@@ -76,6 +76,7 @@ class ExponentialIntegrator {
   void stamp_element(const mechanics::Element& element, double value, double second, double omega_h);
   void stamp_internal_force(const mechanics::Element& element, double k, double second,
                             Eigen::Index internal);
+  void stamp_joints(const mechanics::Network& network, const mechanics::NetworkValues& values);
   void stamp_bend(const mechanics::Element& element, const mechanics::BendPlace& place,
                   const mechanics::BendValue& value);
   Eigen::VectorXd direction(const mechanics::Element& element) const;
@@ -101,6 +102,8 @@ class ExponentialIntegrator {
   bool holds(std::size_t j) const { return contacts_[j].internal < 0; }
 
   Eigen::Index n_ = 0, internal_ = 0, size_ = 0;
+  Eigen::Index first_joint_ = 0;  // in the state
+  Eigen::MatrixXd joint_rates_;   // x' of the joints, of the state
   std::vector<int> orders_;
   std::vector<mechanics::Excitation> excitations_;
   std::vector<mechanics::ExcitationValue> excitation_values_;

@@ -60,6 +60,9 @@ Variance::Variance(const mechanics::Network& network, const Noise& noise, const 
     throw MechanicsError("element '" + unfit->name + "' is " + mechanics::kind_of(*unfit).name +
                          ": the variance under white noise needs linear elements with constant values");
   }
+  if (!network.joints.empty())
+    throw MechanicsError("joint '" + network.joints.front() +
+                         "': the variance under white noise needs a mass at every node");
   find_drifting_motion();
   check_drift();
   if (!(noise.intensity > 0.0 && std::isfinite(noise.intensity))) {

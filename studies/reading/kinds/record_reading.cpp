@@ -72,7 +72,8 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
   const mechanics::Network& network = reading.study.network;
   for (const mechanics::Excitation& excitation : network.excitations) {
     const bool force = excitation.kind == mechanics::ExcitationKind::force;
-    const std::string& node = force ? network.masses[excitation.node] : network.prescribed[excitation.node];
+    const std::string& node =
+        force ? mechanics::forced_node(network, excitation.node) : network.prescribed[excitation.node];
     if (record.find(node + (force ? "_force" : "_displacement"))) continue;
     section.fail(rules::unfit_for_method, "file",
                  "an excitation was measured and replaces [excitation], but \"{}\" is also excited and was "

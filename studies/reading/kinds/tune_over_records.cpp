@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/transient/motion_quantity.hpp"
 #include "studies/reading/keys/toml_section.hpp"
 #include "studies/reading/kinds/design_reading.hpp"
@@ -18,6 +19,19 @@ namespace frahm::studies {
 namespace {
 
 // <mass or signal>_peak or <element>_stroke.
+// Whether a joint has a share in a peak or stroke.
+bool hangs_on_joint(const Study& study, const transient::MotionQuantity& quantity) {
+  using mechanics::Coordinate, mechanics::Node;
+  const auto is_joint = [](const Node& node) { return node.kind == mechanics::NodeKind::joint; };
+  if (quantity.measure == transient::MotionMeasure::stroke)
+    return std::ranges::any_of(study.network.elements[quantity.index].along, is_joint,
+                               &mechanics::Share::node);
+  const Coordinate its = mechanics::coordinate(study.network, quantity.index);
+  if (its.kind == Coordinate::Kind::signal)
+    return std::ranges::any_of(study.values.signals[its.index].nodes, is_joint);
+  return its.kind == Coordinate::Kind::joint;
+}
+
 transient::MotionQuantity read_peak(const TuneReading& reading, const TomlSection& section) {
   const std::string name = section.text("quantity");
   std::vector<std::string> known;
@@ -25,7 +39,12 @@ transient::MotionQuantity read_peak(const TuneReading& reading, const TomlSectio
     const auto measure = quantity.measure;
     if (measure != transient::MotionMeasure::peak && measure != transient::MotionMeasure::stroke) continue;
     known.push_back(transient::describe(quantity, reading.study.network, reading.study.dimensionless).name);
-    if (known.back() == name) return quantity;
+    if (known.back() != name) continue;
+    if (hangs_on_joint(reading.study, quantity))
+      section.fail(rules::unfit_quantity, "quantity",
+                   "\"{}\" is of a joint without mass; under records it must be of masses and supports",
+                   name);
+    return quantity;
   }
   section.fail(rules::unfit_quantity, "quantity",
                "\"{}\" is not a peak of a displacement; under records it must be <mass>_peak, <signal>_peak "

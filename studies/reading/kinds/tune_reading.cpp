@@ -48,6 +48,11 @@ void check_variance(const TuneReading& reading, const TomlSection& section) {
 void read_noise(TuneReading& reading, const TomlSection& section) {
   const TomlValue* value = section.find("noise");
   const bool wanted = reading.choice.objective == Objective::variance;
+  if (const auto& joints = reading.study.network.joints; wanted && !joints.empty())
+    section.fail(rules::unfit_for_method, "objective",
+                 "a variance needs a mass at every node, but \"{}\" is a joint without mass; give it one, or "
+                 "write objective = \"mean_square\"",
+                 joints.front());
   if (!value && wanted)
     section.fail_here(rules::missing_key,
                       "the key \"noise\" is missing: a variance needs noise = {{ force_on = \"<mass>\" }} or "

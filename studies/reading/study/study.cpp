@@ -36,7 +36,8 @@ mechanics::FreeMasses free_masses(StudyKind kind, const mechanics::Network& netw
       kind == StudyKind::sweep ||
       (kind == StudyKind::tune && std::ranges::none_of(network.excitations, is_recorded));
   const bool is_motion = kind == StudyKind::decay || kind == StudyKind::transient;
-  const bool may_be = is_motion || (is_of_responses && !mechanics::has_smooth_law(network));
+  const bool may_be =
+      is_motion || (is_of_responses && !mechanics::has_smooth_law(network) && network.joints.empty());
   return may_be ? mechanics::FreeMasses::allowed : mechanics::FreeMasses::refused;
 }
 

@@ -17,6 +17,12 @@ namespace {
 
 constexpr const char* motions_need_no_spring =
     " (a decay, a transient and a sweep or tuning of exact laws may have free masses)";
+constexpr const char* joints_need_springs =
+    " (beside a joint, a mass of zero, only a decay and a transient may have free masses)";
+
+const char* where_free(const mechanics::Network& network) {
+  return network.joints.empty() ? motions_need_no_spring : joints_need_springs;
+}
 
 // Sets of masses joined by springs; the last set holds what is fixed or moved from outside.
 class Union {
@@ -49,7 +55,8 @@ bool holds(const mechanics::Element& element, const StudyValues& values, std::si
 void add_rows_of_matrices(const mechanics::Network& network, std::vector<Eigen::VectorXd>& rows) {
   for (const mechanics::MatrixPart& part : network.matrices) {
     for (Eigen::Index i = 0; i < part.stiffness.rows(); ++i) {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size()));
+      Eigen::VectorXd row =
+          Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size() + network.joints.size()));
       for (std::size_t j = 0; j < part.nodes.size(); ++j)
         row[static_cast<Eigen::Index>(part.nodes[j])] = part.stiffness(i, static_cast<Eigen::Index>(j));
       if (!row.isZero(0.0)) rows.push_back(std::move(row));
@@ -63,9 +70,12 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
                            const std::vector<Position>& masses, StudyKind kind) {
   if (!context.is_whole || free_masses(kind, system.network) == mechanics::FreeMasses::allowed) return;
   const auto& network = system.network;
-  const std::size_t held = network.masses.size();
+  const std::size_t masses_alone = network.masses.size();
+  const std::size_t held = masses_alone + network.joints.size();
   const auto set_of = [&](const mechanics::Node& node) {
-    return node.kind == mechanics::NodeKind::mass ? node.index : held;
+    return node.kind == mechanics::NodeKind::mass    ? node.index
+           : node.kind == mechanics::NodeKind::joint ? masses_alone + node.index
+                                                     : held;
   };
   Union sets(held + 1);
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
@@ -79,10 +89,10 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
   for (const mechanics::MatrixPart& part : network.matrices) {
     for (const std::size_t node : part.nodes) sets.join(node, held);
   }
-  for (std::size_t i = 0; i < held; ++i) {
+  for (std::size_t i = 0; i < masses_alone; ++i) {
     if (sets.root(i) == sets.root(held)) continue;
     std::vector<std::string> floating;
-    for (std::size_t j = i; j < held; ++j) {
+    for (std::size_t j = i; j < masses_alone; ++j) {
       if (sets.root(j) == sets.root(i)) floating.push_back(fmt::format("\"{}\"", network.masses[j]));
     }
     throw context.source.error_at(
@@ -91,7 +101,7 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
         "stiffness matrix is not positive definite; add a weak spring to ground, with a frequency far below "
         "those of interest, to hold {}{}",
         floating.size() == 1 ? "mass" : "the masses", listed(floating, " and "),
-        floating.size() == 1 ? "s" : "", floating.size() == 1 ? "it" : "them", motions_need_no_spring);
+        floating.size() == 1 ? "s" : "", floating.size() == 1 ? "it" : "them", where_free(network));
   }
 }
 
@@ -99,14 +109,15 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
 void check_combinations_are_held(const Study& study) {
   if (free_masses(study.kind(), study.network) == mechanics::FreeMasses::allowed) return;
   const mechanics::Network& network = study.network;
+  const auto nodes = static_cast<Eigen::Index>(network.masses.size() + network.joints.size());
   std::vector<Eigen::VectorXd> springs;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (holds(network.elements[e], study.values, e))
-      springs.push_back(mechanics::incidence(network, network.elements[e]).w);
+    if (!holds(network.elements[e], study.values, e)) continue;
+    const mechanics::Incidence at = mechanics::incidence(network, network.elements[e]);
+    springs.emplace_back(nodes) << at.w, at.j;
   }
   add_rows_of_matrices(network, springs);
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(springs.size()),
-                                            static_cast<Eigen::Index>(network.masses.size()));
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(springs.size()), nodes);
   for (std::size_t i = 0; i < springs.size(); ++i)
     A.row(static_cast<Eigen::Index>(i)) = springs[i].normalized();
   const Eigen::MatrixXd free = algebra::null_space(A);
@@ -123,7 +134,7 @@ void check_combinations_are_held(const Study& study) {
       "{}: {} can move together without straining any spring, so the stiffness matrix is not positive "
       "definite; each needs one more spring, which may be weak, with a frequency far below those of "
       "interest{}",
-      first.where, listed(names, " and "), motions_need_no_spring);
+      first.where, listed(names, " and "), where_free(network));
 }
 
 }  // namespace frahm::studies

@@ -144,6 +144,11 @@ std::optional<CornerKey> corner_key(const TomlSection& section) {
 void read_corners(NetworkReading& reading, const TomlSection& section, const CornerKey& key,
                   const mechanics::Node& node) {
   refuse(section, "order", "belongs to a harmonic; corners are a whole course");
+  const mechanics::Network& network = reading.result.network;
+  if (reading.follows_time && key.of == RecordOf::force && node.index >= network.masses.size())
+    section.fail(rules::wrong_node, key.key,
+                 "\"{}\" is a joint without mass, on which no course of a force can act; give it a mass",
+                 network.joints[node.index - network.masses.size()]);
   const Quantity quantity = quantity_of_course(reading.result.network, key.of, node.index);
   const std::vector<Corner> corners = read_list(reading, section, key, quantity);
   if (reading.follows_time) return add_course(reading, section, key, node, corners);

@@ -91,9 +91,7 @@ Factor read_factor(const StudyContext& context, const Parameters& parameters, co
 // a length; a rotation is none, but times a length.
 bool is_angle(const StudyContext& context, const mechanics::Network& network, const std::vector<Node>& nodes,
               const std::vector<Factor>& factors) {
-  const auto turns = [&](std::size_t i) {
-    return nodes[i].kind == NodeKind::mass && mechanics::rotates(network, nodes[i].index);
-  };
+  const auto turns = [&](std::size_t i) { return mechanics::turns(network, nodes[i]); };
   bool angle = true;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].kind == NodeKind::ground) continue;
@@ -206,8 +204,9 @@ StudyDirection read_direction(const StudyContext& context, const Parameters& par
     factors.push_back(read_factor(context, parameters, where, share.value));
     along.factors.push_back(factors.back().value);
   }
-  const bool moves =
-      std::ranges::any_of(along.nodes, [](const Node& node) { return node.kind == NodeKind::mass; });
+  const bool moves = std::ranges::any_of(along.nodes, [](const Node& node) {
+    return node.kind == NodeKind::mass || node.kind == NodeKind::joint;
+  });
   if (!moves)
     section.fail(rules::wrong_node, key_of_direction,
                  "a lever without a moving end: none of its nodes is a mass");

@@ -68,7 +68,10 @@ std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSectio
     nodes[i] = *node;
   }
   if (nodes[0] == nodes[1]) section.fail(rules::wrong_node, "between", "both ends are at \"{}\"", names[0]);
-  if (nodes[0].kind != NodeKind::mass && nodes[1].kind != NodeKind::mass) {
+  const auto moves = [](const Node& node) {
+    return node.kind == NodeKind::mass || node.kind == NodeKind::joint;
+  };
+  if (!moves(nodes[0]) && !moves(nodes[1])) {
     section.fail(rules::wrong_node, "between",
                  "neither \"{}\" nor \"{}\" is a mass; at least one end must be a mass", names[0], names[1]);
   }
@@ -79,18 +82,15 @@ std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSectio
 bool is_rotational(const NetworkReading& reading, const TomlSection& section,
                    const std::array<Node, 2>& ends) {
   const mechanics::Network& network = reading.result.network;
-  const auto rotates = [&](const Node& node) {
-    return node.kind == NodeKind::mass && mechanics::rotates(network, node.index);
-  };
+  const auto rotates = [&](const Node& node) { return mechanics::turns(network, node); };
   const auto is_free = [](const Node& node) { return node.kind != NodeKind::ground; };
   const bool any = rotates(ends[0]) || rotates(ends[1]);
   for (std::size_t i = 0; i < 2; ++i) {
     if (!any || rotates(ends[i]) || !is_free(ends[i])) continue;
-    const std::size_t turning = ends[1 - i].index;
     section.fail(rules::wrong_node, "between",
                  "\"{0}\" turns but the other end moves in a line; join them by the radius at which they "
                  "meet: along = {{ {0} = {{ value = 0.1, unit = \"m\" }}, ... }}",
-                 network.masses[turning]);
+                 mechanics::node_name(network, ends[1 - i]));
   }
   return any;
 }

@@ -123,10 +123,9 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
   const std::string named = find_entry(table, "node") ? "node" : "on";
   const TomlSection section(reading.context.source, table,
                             label(table, "force on", named, force_path, number), force_path);
-  const mechanics::Node mass =
-      read_mass(section, reading.result.network, named, "a force must act on a mass");
-  if (read_profile(section) == "file") return read_period_file(reading, section, mass);
-  read_component(reading, section, {ExcitationKind::force, mass.index});
+  const std::size_t node = read_forced_node(section, reading.result.network, named);
+  if (read_profile(section) == "file") return read_period_file(reading, section, {NodeKind::mass, node});
+  read_component(reading, section, {ExcitationKind::force, node});
 }
 
 TomlSection motion_section(const NetworkReading& reading, const TomlValue& table, std::size_t number) {
@@ -156,7 +155,7 @@ void name_support(NetworkReading& reading, const TomlSection& section, const std
     reading.names.push_back({name, fmt::format("the node \"{}\" of prescribed motion", name)});
   } else if (node->kind == NodeKind::ground) {
     section.fail(rules::wrong_node, key, "\"ground\" is fixed; give the moving support a different name");
-  } else if (node->kind == NodeKind::mass) {
+  } else if (node->kind == NodeKind::mass || node->kind == NodeKind::joint) {
     section.fail(
         rules::wrong_node, key,
         "\"{}\" is a mass, whose motion is unknown; give the node of prescribed motion a different name",

@@ -57,12 +57,15 @@ void check_number_of_states(const NetworkReading& reading, const TomlSection& se
   const auto has_internal_force = [](const auto& each) {
     return mechanics::kind_of(each).has_internal_force;
   };
-  const std::size_t states = 2 * network.masses.size() + static_cast<std::size_t>(std::ranges::count_if(
-                                                             network.elements, has_internal_force));
+  const std::size_t in_series = network.joints.size() + static_cast<std::size_t>(std::ranges::count_if(
+                                                            network.elements, has_internal_force));
+  const std::size_t states = 2 * network.masses.size() + in_series;
   if (states <= most_states) return;
   section.fail_here(
       rules::too_large,
-      "with it the system has {} states: two per mass, one per spring in series with a damper or slider; at "
+      "with it the system has {} states: two per mass, one per joint and per spring in series with a damper "
+      "or "
+      "slider; at "
       "most {} are possible, because its matrices are full: reduce it to the points of interest",
       states, most_states);
 }

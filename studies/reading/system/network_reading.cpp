@@ -14,6 +14,7 @@
 #include "studies/reading/system/damping_reading.hpp"
 #include "studies/reading/system/element_reading.hpp"
 #include "studies/reading/system/excitation_reading.hpp"
+#include "studies/reading/system/joint_check.hpp"
 #include "studies/reading/system/matrices_reading.hpp"
 #include "studies/reading/system/network_limits.hpp"
 #include "studies/reading/system/recorded_excitation.hpp"
@@ -26,18 +27,44 @@ namespace {
 using mechanics::Node;
 using mechanics::NodeKind;
 
-void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t number) {
+// Whether an inerter ends at the node.
+bool has_inerter(const StudyContext& context, const TomlValue& root, const std::string& node) {
+  const auto ends_there = [&](const TomlValue* element) {
+    const TomlEntry *type = find_entry(*element, "type"), *between = find_entry(*element, "between"),
+                    *along = find_entry(*element, "along");
+    const auto is = [](const TomlValue& value, std::string_view text) {
+      return value.as<std::string>() && *value.as<std::string>() == text;
+    };
+    if (!type || !is(type->value, "inerter")) return false;
+    if (along && along->value.as<TomlTable>()) return find_entry(along->value, node) != nullptr;
+    const auto* ends = between ? between->value.as<TomlArray>() : nullptr;
+    return ends && std::ranges::any_of(*ends, [&](const TomlValue& end) { return is(end, node); });
+  };
+  return std::ranges::any_of(read_tables(context.source, root, "element"), ends_there);
+}
+
+// A mass of zero without an inerter is a joint, where springs and dampers meet.
+void read_mass(NetworkReading& reading, const TomlValue& root, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table, label(table, "mass", "name", "mass", number),
                             "mass");
   const std::string name = section.identifier("name");
   take_name(reading, section, name, section.where());
-  reading.result.network.masses.push_back(name);
-  reading.masses.push_back(section.position());
-  check_number_of_states(reading, section);
   const bool rotates = section.find("inertia") != nullptr;
-  reading.result.network.rotation.push_back(rotates);
-  reading.result.values.mass.push_back(rotates ? read_value(reading, section, "inertia", Quantity::inertia)
-                                               : read_value(reading, section, "mass", Quantity::mass));
+  StudyValue mass = rotates ? read_value(reading, section, "inertia", Quantity::inertia)
+                            : read_value(reading, section, "mass", Quantity::mass);
+  mechanics::Network& network = reading.result.network;
+  if (mass.expression.is_constant() && mass.expression.evaluate(std::span<const double>{}) == 0.0 &&
+      !has_inerter(reading.context, root, name)) {
+    network.joints.push_back(name);
+    network.joint_rotation.push_back(rotates);
+    reading.joints.push_back({section.position(), section.where()});
+  } else {
+    network.masses.push_back(name);
+    network.rotation.push_back(rotates);
+    reading.masses.push_back(section.position());
+    reading.result.values.mass.push_back(std::move(mass));
+  }
+  check_number_of_states(reading, section);
 }
 
 // A value that is a parameter alone, perhaps through other names, determines that parameter's quantity.
@@ -98,6 +125,7 @@ std::optional<Node> find_node(const mechanics::Network& network, const std::stri
   if (name == "ground") return Node{NodeKind::ground, 0};
   if (const auto mass = place_among(network.masses, name)) return Node{NodeKind::mass, *mass};
   if (const auto support = place_among(network.prescribed, name)) return Node{NodeKind::prescribed, *support};
+  if (const auto joint = place_among(network.joints, name)) return Node{NodeKind::joint, *joint};
   return std::nullopt;
 }
 
@@ -108,13 +136,25 @@ mechanics::Node read_mass(const TomlSection& section, const mechanics::Network& 
   if (!node) section.fail(rules::unknown_name, key, "{}", none_called("mass", name, network.masses));
   if (node->kind != NodeKind::mass)
     section.fail(rules::wrong_node, key, "\"{}\" is {}; {}", name,
-                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion", need);
+                 node->kind == NodeKind::ground ? "fixed"
+                 : node->kind == NodeKind::joint
+                     ? "a joint without mass, which starts where its springs balance"
+                     : "a node of prescribed motion",
+                 need);
   return *node;
+}
+
+std::size_t read_forced_node(const TomlSection& section, const mechanics::Network& network,
+                             const std::string& key) {
+  if (const auto joint = place_among(network.joints, section.text(key)))
+    return network.masses.size() + *joint;
+  return read_mass(section, network, key, "a force must act on a mass").index;
 }
 
 std::vector<std::string> node_names(const mechanics::Network& network) {
   std::vector<std::string> names{"ground"};
   names.insert(names.end(), network.masses.begin(), network.masses.end());
+  names.insert(names.end(), network.joints.begin(), network.joints.end());
   names.insert(names.end(), network.prescribed.begin(), network.prescribed.end());
   return names;
 }
@@ -189,8 +229,12 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
   if (find_entry(root, "damping")) keep_name_of_damping(reading);
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "mass"))
-    read_mass(reading, *table, ++number);
+    read_mass(reading, root, *table, ++number);
   read_matrices(reading, root, folder);
+  if (reading.result.network.masses.empty() && !reading.joints.empty())
+    throw context.source.error_at(
+        rules::beyond_schema(rules::missing_section), reading.joints.front().position,
+        "{}: every mass is 0: nothing has a motion of its own", reading.joints.front().where);
   if (reading.result.network.masses.empty())
     throw context.source.error_at(
         rules::beyond_schema(rules::missing_section), root.position,
@@ -203,6 +247,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
   number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "element"))
     read_element(reading, *table, ++number);
+  check_joints(reading);
   read_damping(reading, root);
   if (is_forced) {
     const bool may_be_constant = reading.follows_time || kind == StudyKind::identify;

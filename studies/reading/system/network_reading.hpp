@@ -41,6 +41,11 @@ struct NetworkReading {
   };
   std::vector<TakenName> names{{"ground", "the fixed node"}};
   std::vector<Position> masses;  // of the tables of result.network.masses
+  struct Table {
+    Position position;
+    std::string where;
+  };
+  std::vector<Table> joints;  // of result.network.joints
 };
 
 // Keeps elements from the name "damping", which is that of the structure's energies in the record.
@@ -52,6 +57,9 @@ void take_name(NetworkReading& reading, const TomlSection& section, const std::s
 
 // The node of a name, or nothing.
 std::optional<mechanics::Node> find_node(const mechanics::Network& network, const std::string& name);
+// The mass or joint that a force acts on, as mechanics::Excitation::node counts them.
+std::size_t read_forced_node(const TomlSection& section, const mechanics::Network& network,
+                             const std::string& key);
 // The mass whose name a key holds. need: "only a mass has initial values".
 mechanics::Node read_mass(const TomlSection& section, const mechanics::Network& network,
                           const std::string& key, std::string_view need);

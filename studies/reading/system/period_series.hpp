@@ -13,7 +13,7 @@ namespace frahm::studies {
 
 struct Period {
   transient::RecordOf of = transient::RecordOf::force;
-  mechanics::Node node;
+  mechanics::Node node;                    // index: as mechanics::Excitation::node counts them
   std::vector<mechanics::Corner> corners;  // straight lines between them; the last closes the period
   std::string key;                         // of the section, that gives them
   std::string file = "";  // that they are from; then a velocity or an acceleration may have a mean

@@ -76,7 +76,9 @@ Quantity quantity_of_course(const mechanics::Network& network, RecordOf of, std:
 }
 
 Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& network) {
-  return quantity_of_course(network, place.of, find_node(network, place.node)->index);
+  const mechanics::Node node = *find_node(network, place.node);
+  const bool is_joint = node.kind == NodeKind::joint;
+  return quantity_of_course(network, place.of, is_joint ? network.masses.size() + node.index : node.index);
 }
 
 void refuse_records(const StudyContext& context, const TomlValue& excitation, StudyKind kind) {
@@ -91,11 +93,14 @@ void read_recorded_components(NetworkReading& reading, const TomlValue& excitati
   for (const TomlSection& section : record_sections(reading.context.source, excitation)) {
     const RecordedPlace place = place_of(section);
     const bool is_force = place.of == RecordOf::force;
-    const mechanics::Node node = is_force
-                                     ? read_mass(section, network, place.key, "a force must act on a mass")
-                                     : *find_node(network, place.node);
+    const std::size_t node =
+        is_force ? read_forced_node(section, network, place.key) : find_node(network, place.node)->index;
+    if (is_force && node >= network.masses.size())
+      section.fail(rules::wrong_node, place.key,
+                   "\"{}\" is a joint without mass, on which no recorded force can act; give it a mass",
+                   place.node);
     network.excitations.push_back(
-        {is_force ? ExcitationKind::recorded_force : ExcitationKind::recorded_motion, node.index, 0});
+        {is_force ? ExcitationKind::recorded_force : ExcitationKind::recorded_motion, node, 0});
     values.amplitude.push_back(read_value(reading, section, "scale", Quantity::number, 1.0));
     values.phase.push_back({});
     values.rod.push_back({});

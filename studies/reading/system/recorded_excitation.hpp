@@ -24,7 +24,7 @@ std::vector<TomlSection> record_sections(const StudySource& source, const TomlVa
 RecordedPlace place_of(const TomlSection& section);
 
 // What a force or motion is counted in: a force (of a rotation a torque), a length, a speed or an
-// acceleration. node: index of the mass, or of the support.
+// acceleration. node: as mechanics::Excitation::node counts masses, joints and supports.
 Quantity quantity_of_course(const mechanics::Network& network, transient::RecordOf of, std::size_t node);
 Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& network);
 

@@ -50,6 +50,12 @@ void refuse_mixed_laws(const Study& study) {
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!mechanics::has_smooth_law(elements[e])) continue;
     const SmoothKey key = smooth_key(study, e);
+    if (const auto& joints = study.network.joints; !joints.empty())
+      throw study.source.error_at(
+          rules::wrong_law, key.position,
+          "{}: its motion is integrated, which takes a mass at every node, but \"{}\" is "
+          "a joint without mass; give it one",
+          key.where, joints.front());
     refuse_bends(study,
                  fmt::format("it can be combined with exact laws only, but element \"{}\" follows \"{}\"",
                              elements[e].name, key.law));

@@ -21,7 +21,8 @@ SmoothKey smooth_key(const Study& study, std::size_t element);
 void refuse_bends(const Study& study, const std::string& why);
 // Refuses smooth laws in a study whose solver follows the exact ones.
 void refuse_smooth_laws(const Study& study, std::string_view what_is_exact);
-// Refuses smooth laws beside contacts that are followed exactly, and beside elements that bend.
+// Refuses smooth laws beside contacts that are followed exactly, beside elements that bend, and beside
+// joints.
 void refuse_mixed_laws(const Study& study);
 // Refuses elements with which several responses may exist; where they depend on numbers, element_problem()
 // does.

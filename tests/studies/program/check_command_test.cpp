@@ -217,7 +217,7 @@ TEST_CASE("Checking a tuning that finds no design says why, as a run does, and c
   const TemporaryDirectory folder;
   const std::filesystem::path path = folder / "tune.toml";
   std::ofstream(path) << small_tunings::heading << small_tunings::absorber
-                      << "[[mass]]\nname = \"sensor\"\nmass = 0\n"
+                      << "[[mass]]\nname = \"sensor\"\nmass = \"0*f\"\n"
                          "[[element]]\nname = \"link\"\ntype = \"damper\"\nbetween = [\"main\", \"sensor\"]\n"
                          "damping = 1e-3\n[[element]]\nname = \"weak\"\ntype = \"spring\"\n"
                          "between = [\"ground\", \"sensor\"]\nstiffness = 1e-4\n"
