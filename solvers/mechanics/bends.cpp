@@ -84,6 +84,13 @@ void set_bends(const Network& network, const NetworkValues& values, Bends& bends
   }
 }
 
+bool has_stop(const Network& network) {
+  return std::any_of(network.elements.begin(), network.elements.end(), [](const Element& element) {
+    return std::any_of(element.bends.begin(), element.bends.end(),
+                       [](const BendPlace& bend) { return !bend.law->of_velocity; });
+  });
+}
+
 bool may_have_several_responses(const Network& network) {
   return std::any_of(network.elements.begin(), network.elements.end(), [](const Element& element) {
     return element.has_static_force || !element.bends.empty() || may_have_several_responses(element.law);

@@ -29,6 +29,9 @@ Bends place_bends(const Network& network, const std::vector<Incidence>& incidenc
 // The numbers of all bends. Throws MechanicsError where one breaks a rule.
 void set_bends(const Network& network, const NetworkValues& values, Bends& bends);
 
+// Whether some force bends over a displacement: a stop, a play, or a table of a spring.
+bool has_stop(const Network& network);
+
 // Whether the response may be one of several: some law may not be monotone.
 bool may_have_several_responses(const Network& network);
 

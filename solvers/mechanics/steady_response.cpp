@@ -23,7 +23,8 @@ Eigen::VectorXd springs_of(const LinearSystem& system) {
 }
 
 // Under the constant force f alone dampers let free masses drift on at R c, where nothing else resists them:
-//   R^T C R c = R^T f,   K q = f - C R c.
+//   R^T C R c = R^T f,   K q = P^T (f - C R c),   R^T M q = 0,   P = 1 - R R^T M.
+// Without P a force that friction alone holds would move q along R as far as it likes, and rounding with it.
 void carry_along(const LinearSystem& system, Eigen::VectorXd& state) {
   const Eigen::MatrixXd& R = system.free_directions;
   const Eigen::Index n = system.masses();
@@ -35,7 +36,10 @@ void carry_along(const LinearSystem& system, Eigen::VectorXd& state) {
   const Eigen::VectorXd velocity =
       R * Eigen::VectorXd(resistance.completeOrthogonalDecomposition().solve(drive));
   state.segment(n, n) = velocity;
-  state.head(n) = algebra::inverse(held_stiffness(system)) * (system.constant_force - C * velocity);
+  Eigen::VectorXd force = system.constant_force - C * velocity;
+  force -= system.M * (R * (R.transpose() * force));
+  state.head(n) = algebra::inverse(held_stiffness(system)) * force;
+  state.head(n) -= R * (R.transpose() * (system.M * state.head(n)));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/smooth_laws.hpp"
 #include "studies/reading/keys/study_keys.hpp"
 
@@ -36,8 +37,8 @@ mechanics::FreeMasses free_masses(StudyKind kind, const mechanics::Network& netw
       kind == StudyKind::sweep ||
       (kind == StudyKind::tune && std::ranges::none_of(network.excitations, is_recorded));
   const bool is_motion = kind == StudyKind::decay || kind == StudyKind::transient;
-  const bool may_be =
-      is_motion || (is_of_responses && !mechanics::has_smooth_law(network) && network.joints.empty());
+  const bool may_be = is_motion || (is_of_responses && !mechanics::has_smooth_law(network) &&
+                                    network.joints.empty() && !mechanics::has_stop(network));
   return may_be ? mechanics::FreeMasses::allowed : mechanics::FreeMasses::refused;
 }
 

@@ -73,7 +73,7 @@ std::string_view kind_name(StudyKind kind);  // as the study writes it
 std::string_view kind_noun(StudyKind kind);  // in sentences: "a tuning"
 
 // Whether masses may be held by no spring: in motions from initial values, and in periodic responses under
-// exact laws of networks without joints.
+// exact laws of networks without joints and stops.
 mechanics::FreeMasses free_masses(StudyKind kind, const mechanics::Network& network);
 
 // Gives the parameters of a dimension of the map their SI values at one index (Parameters::list order).

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "solvers/algebra/null_space.hpp"
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/reading/study/characteristic.hpp"
@@ -18,10 +19,15 @@ namespace {
 constexpr const char* motions_need_no_spring =
     " (a decay, a transient and a sweep or tuning of exact laws may have free masses)";
 constexpr const char* joints_need_springs =
-    " (beside a joint, a mass of zero, only a decay and a transient may have free masses)";
+    " (beside a joint, a mass of zero, only a decay and a transient may have free masses; a spring and a "
+    "damper that meet at a joint are one maxwell)";
+
+constexpr const char* stops_need_springs =
+    " (beside a stop, a play or a table of a spring only a decay and a transient may have free masses)";
 
 const char* where_free(const mechanics::Network& network) {
-  return network.joints.empty() ? motions_need_no_spring : joints_need_springs;
+  if (!network.joints.empty()) return joints_need_springs;
+  return mechanics::has_stop(network) ? stops_need_springs : motions_need_no_spring;
 }
 
 // Sets of masses joined by springs; the last set holds what is fixed or moved from outside.
